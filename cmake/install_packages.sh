@@ -12,7 +12,7 @@ run='cmake ninja-build g++ libassimp-dev libeigen3-dev libboost-filesystem-dev l
   libtbb-dev libtinyxml2-dev liburdfdom-dev libxxhash-dev nlohmann-json3-dev libzmq3-dev cppzmq-dev zlib1g-dev libjs-dygraphs
   libjs-three'
 test='libgtest-dev libgmock-dev libsimbody-dev libxml2-utils liburdfdom-tools gnuplot-nox groff-base'
-full='pybind11-dev python3-dev python3-numpy python3-matplotlib libbenchmark-dev chromium chromium-driver python3-selenium
+full='pybind11-dev python3-dev python3-numpy python3-matplotlib libbenchmark-dev libmujoco-dev chromium chromium-driver python3-selenium
   poppler-utils pkg-config dpkg-dev python3-venv python3-pip python3-setuptools python3-wheel slurm-wlm munge parallel snakemake'
 ci='git mypy clang-14 clang-format-14 clang-tidy-14 doxygen python3-sphinx'
 

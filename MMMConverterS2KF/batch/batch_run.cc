@@ -57,9 +57,9 @@ void CheckRobots(const BatchManifest& manifest, const std::vector<const BatchEnt
   for (const BatchEntry* entry : entries) {
     const RobotRequest& robot = entry->request.robot;
     if (robot.file.empty()) continue;
-    const std::string said =
-        fmt::format("{}\n{}\n{}\n{}\n{}\n{}", robot.file, robot.map_file, robot.hold, robot.sole,
-                    robot.sole_height.value_or(-1), robot.objects.empty());
+    const std::string said = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", robot.file, robot.map_file,
+                                         robot.hold, robot.weights, robot.sole,
+                                         robot.sole_height.value_or(-1), robot.objects.empty());
     if (!known.insert(said).second) continue;
     try {
       ReadRobot(robot, nullptr);

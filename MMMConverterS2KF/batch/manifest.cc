@@ -168,8 +168,8 @@ class ManifestReader {
 
   void CheckRobotExports(const XmlElement& element, const BatchEntry& entry) {
     const RobotRequest& robot = entry.request.robot;
-    for (const char* idle : {"robotMap", "soleHeight_mm", "robotSole", "robotHold", "robotObjects",
-                             "robotRate_hz", "robotOrder"}) {
+    for (const char* idle : {"robotMap", "soleHeight_mm", "robotSole", "robotHold", "robotWeights",
+                             "robotObjects", "robotRate_hz", "robotOrder"}) {
       if (!robot.file.empty() || element.FindAttribute(idle) == nullptr) continue;
       diagnostics_.AddError(element.line,
                             fmt::format("<Recording>: {} needs robot=\"FILE\"", idle));

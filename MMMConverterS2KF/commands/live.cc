@@ -91,7 +91,7 @@ void CheckNeedsOutput(const Arguments& arguments, const LiveRequest& request) {
 
 void CheckRobot(const Arguments& arguments, const LiveRequest& request) {
   if (request.robot.file.empty()) {
-    for (const char* option : {"map", "sole-height", "sole", "hold", "joint-speed",
+    for (const char* option : {"map", "sole-height", "sole", "hold", "weights", "joint-speed",
                                "joint-acceleration", "root-speed", "rest-after"}) {
       if (!arguments.Has(option)) continue;
       throw UsageError(fmt::format("live: --{} is of a robot; give --robot too", option));

@@ -225,6 +225,7 @@ LiveRequest LiveRequestOf(const py::dict& options, bool loops, double calibrate_
   request.robot.map_file = TextOf(options, "map");
   request.robot.sole_height = sole_height;
   request.robot.hold = TextOf(options, "hold");
+  request.robot.weights = TextOf(options, "weights");
   request.robot.sole = TextOf(options, "sole");
   request.loops = loops;
   request.longest = seconds;

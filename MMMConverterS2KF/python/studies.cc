@@ -237,6 +237,7 @@ RetargetedMotion Retarget(const py::object& motion, const py::dict& options, con
   robot.map_file = map;
   robot.sole_height = sole_height;
   robot.hold = TextOf(options, "hold");
+  robot.weights = TextOf(options, "weights");
   robot.sole = TextOf(options, "sole");
   if (options.contains("objects")) {
     robot.objects = options["objects"].cast<std::vector<std::string>>();

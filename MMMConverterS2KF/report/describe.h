@@ -27,6 +27,12 @@ Description DescribeNpz(const FileStart& file, const ReadRecordingOptions& optio
 bool IsBvh(const FileStart& file);
 Description DescribeBvh(const FileStart& file, const ReadRecordingOptions& options);
 
+// Of robots, as files of robot learning have them.
+bool IsLafanTable(const FileStart& file);
+Description DescribeLafanTable(const FileStart& file, const ReadRecordingOptions& options);
+bool IsPickle(const FileStart& file);
+Description DescribePickle(const FileStart& file, const ReadRecordingOptions& options);
+
 /// A table of the program's own: of its first line.
 bool IsTable(const FileStart& file);
 Description DescribeTable(const FileStart& file, const ReadRecordingOptions& options);

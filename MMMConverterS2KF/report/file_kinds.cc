@@ -95,6 +95,8 @@ const std::vector<FileKind>& FileKinds() {
       {"tables (CSV, MOT)", IsTable, DescribeTable},
       {"arrays (.npz)", IsNpz, DescribeNpz},
       {"skeletons (BVH)", IsBvh, DescribeBvh},
+      {"motions of robots (CSV)", IsLafanTable, DescribeLafanTable},
+      {"pickles", IsPickle, DescribePickle},
       {"summaries (JSON)", IsJson, DescribeSummary},
       {"sample sets of filters", IsSampleSet, DescribeSampleSet},
   };

@@ -163,6 +163,13 @@ Json JointsJson(const RetargetFigures& figures) {
   return joints;
 }
 
+Json WeightsJson(const AimWeights& weights) {
+  return {{"feet", weights.feet},
+          {"hands", weights.hands},
+          {"trunk", weights.trunk},
+          {"limbs", weights.limbs}};
+}
+
 Json FilesJson(const RetargetReport& report) {
   Json files = Json::array();
   for (const RateFit& fit : report.fits) {
@@ -237,6 +244,7 @@ Json ToJson(const RetargetReport& report) {
                {"output", report.output},
                {"map", FormatBodyMap(report.robot.model, report.body.map)},
                {"sole", report.body.feet ? TextOrNull((*report.body.feet)[0].said) : Json()},
+               {"weights", WeightsJson(report.body.weights)},
                {"scale", Number(report.retargeted.scale)},
                {"frames", figures.num_frames},
                {"rate_hz", Number(figures.rate)},

@@ -68,7 +68,8 @@ struct Robot {
   std::string format;                ///< "URDF" or "MJCF"
   /// Segments that the file ties together, which nothing here does: loops.
   std::vector<std::array<int, 2>> ties = {};
-  std::string file = {};  ///< that it was read of, from which meshes are named
+  std::string file = {};               ///< that it was read of, from which meshes are named
+  Eigen::VectorXd effort_limits = {};  ///< of joints' motors [N m, sliding N]; infinity: not known
 };
 
 /// The segment that the segment is fixed to without any moving joint between, nearest the root.

@@ -35,6 +35,7 @@ struct RobotRequest {
   std::optional<double> sole_height;  ///< of the last ankle joint above the sole [m]
   std::string sole;                   ///< "LENGTH,WIDTH,HEIGHT" [m], "meshes" or "shapes"
   std::string hold;                   ///< joints, see HoldJoints
+  std::string weights;                ///< of aims, see ParseAimWeights
   std::vector<std::string> objects;   ///< beside the person, see ReadObjects
   std::optional<double> export_rate;  ///< [Hz]
   std::string order;                  ///< see ParseRobotOrder; empty: none is given

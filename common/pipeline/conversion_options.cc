@@ -243,6 +243,10 @@ std::vector<Option> RobotOptions(RobotRequest* robot) {
           "given in mm: left_hand_*=30,neck=0",
           "joints that no limb or trunk has stay at 0, or the nearest that they may",
           task::kRetarget | task::kLive, &robot->hold, {.absent = kInPython}),
+      Row({"weights", "robotWeights", ""}, {OptionKind::kText, "GROUP=W,..."},
+          "how much the robot's feet, hands, trunk and limbs count against each other, 0.01 to 100 "
+          "each: feet=2,hands=0.5",
+          "1", task::kRetarget | task::kLive, &robot->weights, {.absent = kInPython}),
       Row({"objects", "robotObjects", ""}, {OptionKind::kFile, "FILE[:NAMES]"},
           "MMM file with the motions of rigid objects that were tracked beside the person, or some "
           "of them (A,B); hands that hold one keep their place at it, and it is written with the "

@@ -122,6 +122,7 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   Robot robot = ReadStandingRobot(request.file, warnings);
   const SoleChoice sole = SoleChoiceOf(request);
   const BodyMapChoice map = MapChoiceOf(request);
+  const AimWeights weights = ParseAimWeights(request.weights);
   Warnings of_meshes;
   ReadFeet(FindRobotMap(robot, map), sole, &robot, &of_meshes);
   RobotBody body = FindBody(robot, map, sole, of_meshes);
@@ -135,6 +136,7 @@ LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
     body = FindBody(robot, map, sole, of_meshes);
     HoldJoints(robot, request.hold, &body);
   }
+  body.weights = weights;
   if (const std::string doubt = DoubtOf(robot, body); !doubt.empty()) Warn(warnings, doubt);
   WarnOfBareRoot(robot, warnings);
   if (!body.map.left_out.empty()) {

@@ -69,7 +69,7 @@ HeldPattern ParsePattern(const std::string& text) {
   for (const Segment& segment : model.segments()) {
     if (fnmatch(pattern.name.c_str(), segment.name.c_str(), 0) != 0 || segment.parent < 0) continue;
     throw Error(
-        fmt::format("{}: {} does not move: it is fixed, slides in a URDF, has equal limits "
+        fmt::format("{}: {} does not move: it is fixed, has equal limits "
                     "or follows another joint",
                     OptionText("hold"), segment.name));
   }

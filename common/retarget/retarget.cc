@@ -19,7 +19,9 @@ constexpr int kFewestFrames = 3;
 constexpr FitEffort kFirstEffort = {3, 18, 0.05, false};
 constexpr FitEffort kLastEffort = {5, 40, 0.02, true};
 constexpr FootDeviations kSoft = {0.006, 0.03, 0.006, 0.1};
-constexpr FootDeviations kFirm = {0.0001, 0.001, 0.006, 0.1};
+// What a foot may go between two frames at 200 Hz and still stand; a turn moves its ends, 0.2 m
+// away.
+constexpr FootDeviations kFirm = {0.00005, 0.00025, 0.006, 0.1};
 
 FootTracks FeetOf(const KinematicModel& model, const RobotBody& body,
                   const std::vector<Posture>& postures, FootTracks tracks) {

@@ -24,15 +24,17 @@ constexpr double kPoorArm = 0.2;  // direction of arms with fewer, which would d
 constexpr double kHandTurn = 0.3;
 constexpr double kHoldPlace = 0.003;  // of a hand at what it holds
 constexpr double kHoldTurn = 0.1;
-constexpr double kHeld = 1e-4;    // of a root without legs
-constexpr double kLeaning = 0.1;  // of a foot that no joint rolls
+constexpr double kHeld = 1e-4;  // of a root without legs
 
 using Target = std::function<Vector3d(const BodyPosture&, double)>;
 
 /// Collects what follows the person.
 class PersonAims {
  public:
-  explicit PersonAims(const RobotBody& body) : has_feet_(body.feet), R_WA_(body.map.R_WA) {}
+  explicit PersonAims(const RobotBody& body)
+      : weights_(body.weights), has_feet_(body.feet), R_WA_(body.map.R_WA) {}
+
+  const AimWeights& weights() const { return weights_; }
 
   void Add(int segment, bool is_direction, const Vector3d& local, double deviation, Target target) {
     aims_.push_back({segment, is_direction, local, deviation, std::move(target)});
@@ -56,6 +58,7 @@ class PersonAims {
   std::vector<PersonAim> Take() { return std::move(aims_); }
 
  private:
+  AimWeights weights_;
   bool has_feet_;
   Eigen::Matrix3d R_WA_;
   std::vector<PersonAim> aims_;
@@ -65,27 +68,31 @@ void AddArms(const BodyMap& map, PersonAims* aims) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!map.arms[i]) continue;
     const LimbMap& arm = *map.arms[i];
-    const double direction = arm.fold < kWholeArm ? kPoorArm : kArmDirection;
+    const double limbs = aims->weights().limbs;
+    const double direction = Weighed(arm.fold < kWholeArm ? kPoorArm : kArmDirection, limbs);
+    const double hand = Weighed(kHandTurn, aims->weights().hands);
     const auto upper = [i](const BodyPosture& p) { return p.arms[i].R_upper; };
     const auto lower = [i](const BodyPosture& p) { return p.arms[i].R_lower; };
     const auto end = [i](const BodyPosture& p) { return p.arms[i].R_end; };
     aims->Turn(arm.upper.segment, arm.upper.R_SL, 2, direction, upper);
-    aims->Turn(arm.upper.segment, arm.upper.R_SL, 1, kArmTwist, upper);
+    aims->Turn(arm.upper.segment, arm.upper.R_SL, 1, Weighed(kArmTwist, limbs), upper);
     aims->Turn(arm.lower.segment, arm.lower.R_SL, 2, direction, lower);
     if (!arm.has_wrist) continue;
-    aims->Turn(arm.end, arm.R_ED, 2, kHandTurn, end);
-    aims->Turn(arm.end, arm.R_ED, 1, kHandTurn, end);
+    aims->Turn(arm.end, arm.R_ED, 2, hand, end);
+    aims->Turn(arm.end, arm.R_ED, 1, hand, end);
   }
 }
 
 void AddLegs(const BodyMap& map, PersonAims* aims) {
+  const double direction = Weighed(kLegDirection, aims->weights().limbs);
+  const double twist = Weighed(kLegTwist, aims->weights().limbs);
   for (std::size_t i = 0; i < 2; ++i) {
     const LimbMap& leg = *map.legs[i];
     const auto upper = [i](const BodyPosture& p) { return p.legs[i].R_upper; };
     const auto lower = [i](const BodyPosture& p) { return p.legs[i].R_lower; };
-    aims->Turn(leg.upper.segment, leg.upper.R_SL, 2, kLegDirection, upper);
-    aims->Turn(leg.upper.segment, leg.upper.R_SL, 1, kLegTwist, upper);
-    aims->Turn(leg.lower.segment, leg.lower.R_SL, 2, kLegDirection, lower);
+    aims->Turn(leg.upper.segment, leg.upper.R_SL, 2, direction, upper);
+    aims->Turn(leg.upper.segment, leg.upper.R_SL, 1, twist, upper);
+    aims->Turn(leg.lower.segment, leg.lower.R_SL, 2, direction, lower);
   }
 }
 
@@ -111,14 +118,16 @@ Vector3d MidHip(const KinematicModel& model, const BodyMap& map) {
 void AddHolds(const Retargeted& retargeted, const RobotBody& body, TrajectoryProblem* problem) {
   const int frames = problem->num_frames;
   const Vector3d floor = FloorOf(retargeted) * Vector3d::UnitZ();
+  const double place = Weighed(kHoldPlace, body.weights.hands);
+  const double turn = Weighed(kHoldTurn, body.weights.hands);
   for (std::size_t i = 0; i < 2; ++i) {
     if (!body.map.arms[i]) continue;
     const LimbMap& map = *body.map.arms[i];
     const std::vector<double> weights = WeightsOfHold(retargeted.holds, i, problem->rate, frames);
-    std::vector<Aim> aims = {MakeAim({map.end, false, body.palms[i].p_S, kHoldPlace, {}}, frames)};
+    std::vector<Aim> aims = {MakeAim({map.end, false, body.palms[i].p_S, place, {}}, frames)};
     for (const int column : {2, 1}) {
       if (map.has_wrist)
-        aims.push_back(MakeAim({map.end, true, map.R_ED.col(column), kHoldTurn, {}}, frames));
+        aims.push_back(MakeAim({map.end, true, map.R_ED.col(column), turn, {}}, frames));
     }
     for (int k = 0; k < frames; ++k) {
       const LimbPosture& arm = retargeted.human.bodies[k].arms[i];
@@ -137,7 +146,7 @@ std::vector<PersonAim> AimsAtPerson(const Robot& robot, const RobotBody& body, d
   const BodyMap& map = body.map;
   PersonAims aims(body);
   for (const int column : {0, 2}) {
-    aims.Turn(map.chest, map.R_CA, column, kChestTurn,
+    aims.Turn(map.chest, map.R_CA, column, Weighed(kChestTurn, body.weights.trunk),
               [](const BodyPosture& p) { return p.R_chest; });
   }
   AddArms(map, &aims);
@@ -146,10 +155,10 @@ std::vector<PersonAim> AimsAtPerson(const Robot& robot, const RobotBody& body, d
     return aims.Take();
   }
   for (const int column : {0, 2}) {
-    aims.Turn(map.pelvis, map.R_PA, column, kPelvisTurn,
+    aims.Turn(map.pelvis, map.R_PA, column, Weighed(kPelvisTurn, body.weights.trunk),
               [](const BodyPosture& p) { return p.R_pelvis; });
   }
-  aims.Add(map.pelvis, false, MidHip(robot.model, map), kPelvisPlace,
+  aims.Add(map.pelvis, false, MidHip(robot.model, map), Weighed(kPelvisPlace, body.weights.trunk),
            [scale](const BodyPosture& person, double floor) -> Vector3d {
              return scale * (person.mid_hip - floor * Vector3d::UnitZ());
            });
@@ -160,6 +169,12 @@ std::vector<PersonAim> AimsAtPerson(const Robot& robot, const RobotBody& body, d
 Aim MakeAim(const PersonAim& of, int frames) {
   return {of.segment, of.is_direction, of.local, Eigen::Matrix3Xd::Zero(3, frames),
           Eigen::Matrix3Xd::Constant(3, frames, 1 / of.deviation)};
+}
+
+FootDeviations Weighed(const FootDeviations& deviations, double weight) {
+  return {Weighed(deviations.stance_place, weight), Weighed(deviations.stance_turn, weight),
+          Weighed(deviations.swing_place, weight), Weighed(deviations.swing_turn, weight),
+          Weighed(deviations.leaning, weight)};
 }
 
 std::array<Aim, 3> MakeFootAims(const RobotFoot& foot, int frames) {
@@ -176,7 +191,7 @@ void SetFootAims(const RobotFoot& foot, const Eigen::Isometry3d& X_WF, bool stan
   for (int i = 0; i < 3; ++i) {
     aims[i].target.col(frame) = i == 0 ? X_WF * aims[i].local : X_WF.linear() * aims[i].local;
     aims[i].weight.col(frame).setConstant(1 / (i == 0                  ? place
-                                               : i == 2 && !foot.rolls ? kLeaning
+                                               : i == 2 && !foot.rolls ? deviations.leaning
                                                                        : turn));
   }
 }
@@ -210,11 +225,12 @@ TrajectoryProblem MakeProblem(const Retargeted& retargeted, const Robot& robot,
       aim.target.col(k) = one.target(retargeted.human.bodies[k], floor);
     }
   }
+  const FootDeviations weighed = Weighed(deviations, body.weights.feet);
   for (std::size_t i = 0; i < feet.size() && body.feet; ++i) {
     const RobotFoot& foot = (*body.feet)[i];
     auto aims = MakeFootAims(foot, frames);
     for (int k = 0; k < frames; ++k) {
-      SetFootAims(foot, feet[i].X_WF[k], feet[i].stands[k], deviations, k, aims.data());
+      SetFootAims(foot, feet[i].X_WF[k], feet[i].stands[k], weighed, k, aims.data());
     }
     problem.aims.insert(problem.aims.end(), aims.begin(), aims.end());
   }

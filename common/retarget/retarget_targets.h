@@ -57,7 +57,9 @@ Eigen::Isometry3d PlaceFoot(const ScaledFoot& of, const RobotBody& body, std::si
 /// How closely feet are followed.
 struct FootDeviations {
   double stance_place, stance_turn, swing_place, swing_turn;  ///< [m], [rad]
+  double leaning = 0.1;                                       ///< of a foot that no joint rolls
 };
+FootDeviations Weighed(const FootDeviations& deviations, double weight);
 
 /// Sole, toes' and left direction of a foot.
 std::array<Aim, 3> MakeFootAims(const RobotFoot& foot, int frames);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/model/robot.h"
+#include "common/retarget/aim_weights.h"
 #include "common/retarget/body_map.h"
 #include "common/retarget/robot_capsules.h"
 #include "common/retarget/robot_foot.h"
@@ -28,6 +29,7 @@ struct RobotBody {
   /// Of the root where it has no legs: as its file says, or floating, so high that it stands [m].
   Eigen::Vector3d base = Eigen::Vector3d::Zero();
   std::vector<int> held;  ///< joints that stay there (held_joints.h)
+  AimWeights weights;
 };
 
 /// Why the motion may not be what is wanted, of its soles or its base; empty: nothing.

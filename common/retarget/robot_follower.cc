@@ -204,8 +204,9 @@ void RobotFollower::SetAims(double dt) {
   }
   if (!body_.feet) return;
   AimFeet(dt);
+  const FootDeviations followed = Weighed(kFollowed, body_.weights.feet);
   for (std::size_t i = 0; i < 2; ++i) {
-    SetFootAims((*body_.feet)[i], feet_[i].aim, feet_[i].stands, kFollowed, 0,
+    SetFootAims((*body_.feet)[i], feet_[i].aim, feet_[i].stands, followed, 0,
                 &problem_.aims[person_aims_.size() + 3 * i]);
   }
 }

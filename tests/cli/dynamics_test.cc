@@ -21,6 +21,7 @@ namespace mmm_converter {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::ReadText;
@@ -260,6 +261,15 @@ TEST(CheckDynamics, TakesARobotAsItIs) {
   const Json json = Json::parse(ReadText(summary));
   EXPECT_NEAR(json["mass_kg"].get<double>(), kMass, 1e-3);
   EXPECT_TRUE(json["input"]["person"]["height_m"].is_null());
+  EXPECT_THAT(run.out, ContainsRegex("motors off the ground +[0-9.]+ of 1000 N m, "));
+  std::string weak = ReadText(robot);
+  const std::string effort = "effort=\"1000\"";
+  for (std::size_t at = weak.find(effort); at != std::string::npos; at = weak.find(effort)) {
+    weak.replace(at, effort.size(), "effort=\"1e-6\"");
+  }
+  WriteText(robot, weak);
+  const auto without = RunProgram({"check-dynamics", file, "--model", robot});
+  EXPECT_THAT(without.out, HasSubstr("implausible: the robot's file allows its motor no more"));
 }
 
 struct BadMotion {

@@ -82,6 +82,9 @@ TEST_F(RetargetCommand, WritesTheRobotsMotionAndWhatLearnersRead) {
     EXPECT_NEAR(std::hypot(std::hypot(row[3], row[4]), std::hypot(row[5], row[6])), 1, 1e-5);
   }
   EXPECT_THAT(ReadText(File("o.npz")), HasSubstr("body_quat_w.npy"));
+  const auto info = RunProgram({"info", File("o.csv")});
+  EXPECT_THAT(info.out, AllOf(HasSubstr("LAFAN1"), HasSubstr("frames     30"),
+                              HasSubstr("joints     21: left_hip")));
   EXPECT_THAT(ReadText(File("o.csv.names.json")), HasSubstr("\"left_hip_pitch\""));
   EXPECT_THAT(ReadText(File("o.html")), AllOf(HasSubstr("on biped</title>"), HasSubstr("player")));
 }
@@ -173,9 +176,13 @@ TEST_F(RetargetCommand, FeetAreTheirMeshes) {
 TEST_F(RetargetCommand, ObjectsComeAlong) {
   WriteText(File("box.xml"), testing::SlidingBox("b.xml", 200));
   const auto run = RunProgram(Words({"-o", File("b_o.xml"), "--objects", File("box.xml") + ":box",
-                                     "--summary", File("b_o.json")}));
+                                     "--summary", File("b_o.json"), "--export-mujoco",
+                                     File("b_o.npz"), "--export-gmr", File("b_o.pkl")}));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("box"));
+  EXPECT_THAT(ReadText(File("b_o.npz")), HasSubstr("object_names.npy"));
+  const auto info = RunProgram({"info", File("b_o.pkl")});
+  EXPECT_THAT(info.out, HasSubstr("motion of a robot, as GMR and TWIST have it"));
   const auto summary = nlohmann::json::parse(ReadText(File("b_o.json")));
   EXPECT_EQ(summary["objects"][0]["name"], "box");
   const MmmMotionFile file = ReadMmmMotionFile(File("b_o.xml"));
@@ -217,6 +224,8 @@ TEST_F(RetargetCommand, RefusesBeforeTheWork) {
   EXPECT_THAT(refusal({"retarget", "--robot", robot_, "--report", robot_}, 1), HasSubstr(robot_));
   EXPECT_THAT(refusal(Words({"-o", out, "--hold", "left_finger=3"}), 1),
               AllOf(HasSubstr("--hold"), HasSubstr("left_hip_yaw")));
+  EXPECT_THAT(refusal(Words({"-o", out, "--weights", "foot=2"}), 1),
+              AllOf(HasSubstr("--weights"), HasSubstr("\"foot=2\""), HasSubstr("0.01 to 100")));
   EXPECT_THAT(refusal(Words({"-o", out, "--sole-height", "50"}), 1), HasSubstr("5 to 500 mm"));
   for (const char* sole : {"0.2,0.08", "0.2,0.08,x", "200,80,50", "mesh"}) {
     EXPECT_THAT(refusal(Words({"-o", out, "--sole", sole}), 1), HasSubstr("--sole")) << sole;
@@ -258,8 +267,8 @@ TEST(RealRetarget, WalkersFeetStandStillOnRobotsWithAndWithoutAnklesThatRoll) {
                                    folder + "/walker.xml", "--summary", folder + "/walker.json"});
       ASSERT_EQ(run.exit_code, 0) << run.err;
       const auto summary = nlohmann::json::parse(ReadText(folder + "/walker.json"));
-      // Two of the walker's 190 pairs of frames, by 10 and 30 mm/s.
-      EXPECT_LT(summary["slide"].get<double>(), 0.016) << input << " " << robot;
+      // Two of the walker's 190 pairs of frames.
+      EXPECT_LT(summary["slide"].get<double>(), 0.012) << input << " " << robot;
       EXPECT_LT(summary["penetration_m"].get<double>(), 0.001) << input << " " << robot;
       // The person goes down five steps of .19 m.
       const bool has_steps = summary["highest_stance_m"] != 0;

@@ -109,7 +109,6 @@ TEST(Urdf, KnownAnglesOfARobotAreRecovered) {
     const auto run = RunProgram({"convert", recording, "--model", Humanoid(), "-c", config, "-o",
                                  output, "--report", TestFolder() + "/o.html"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("joint lift (prismatic)"));
     EXPECT_THAT(run.out, HasSubstr("model is not scaled"));
     const double tolerance = config == "s2kf_default" ? kFilteredAngle : kFittedAngle;
     EXPECT_LT(LargestError(truth, output), tolerance) << config;
@@ -258,7 +257,7 @@ TEST(Urdf, InfoDescribesIt) {
   const auto run = RunProgram({"info", Humanoid()});
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.out, AllOf(HasSubstr("model humanoid"), HasSubstr("left_knee"),
-                             HasSubstr("joints     31"), HasSubstr("markers    47")));
+                             HasSubstr("joints     32"), HasSubstr("markers    47")));
 }
 
 /// Where the shipped model's markers are, read back from a URDF, beside those of the model.

@@ -140,7 +140,8 @@ class Live(Presented):
 @with_options("live")
 def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = None,
          sole: Union[str, Sequence[float], None] = None,
-         hold: Optional[Mapping[str, float]] = None, loop: bool = False,
+         hold: Optional[Mapping[str, float]] = None,
+         weights: Optional[Mapping[str, float]] = None, loop: bool = False,
          seconds: Optional[float] = None, calibrate_seconds: Optional[float] = None,
          **options: Unpack[LiveOptions]) -> Live:
     """Tracks a person while frames come, as the command ``live`` does; the postures are an iterator.
@@ -157,7 +158,7 @@ def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = No
         "qtm://HOST", "natnet://HOST" or "replay:FILE@SPEED", as of the command.
     robot : path, optional
         A robot, URDF or MJCF, that follows the person: the postures are its.
-    map, sole_height, sole, hold
+    map, sole_height, sole, hold, weights
         Of the robot, as of `retarget`.
     loop : bool
         A replay begins again at its end.
@@ -190,8 +191,8 @@ def live(source: str, *, robot=None, map=None, sole_height: Optional[float] = No
     request = keywords(options, file=source)
     if calibrate_seconds is not None and "self_calibrate" not in request:
         raise WrongValue("calibrate_seconds: is of self_calibrate")
-    if robot is None and (map is not None or sole_height is not None or sole is not None or hold):
-        raise WrongValue("map, sole_height, sole and hold: are of robot")
+    if robot is None and (map is not None or sole_height is not None or sole is not None or hold or weights):
+        raise WrongValue("map, sole_height, sole, hold and weights: are of robot")
     request.update({name: path_text(file) for name, file in (("robot", robot), ("map", map)) if file is not None})
-    request.update(robot_options(hold, sole))
+    request.update(robot_options(hold, sole, weights))
     return Live(source, request, loop, calibrate_seconds or 0.0, seconds or 0.0, sole_height)

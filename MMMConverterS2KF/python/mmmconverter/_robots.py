@@ -90,18 +90,21 @@ class Retargeted(Postures, Judged):
         return [("robot", self.summary["robot"]), ("frames", len(self.joints)), ("verdict", self.verdict)]
 
 
-def robot_options(hold, sole):
-    """The options hold and sole for the compiled part."""
+def robot_options(hold, sole, weights):
+    """The options hold, sole and weights for the compiled part."""
     options = {"hold": ",".join(f"{name}={float(angle)!r}" for name, angle in hold.items())} if hold else {}
     if sole is not None:
         options["sole"] = sole if isinstance(sole, str) else ",".join(repr(float(size)) for size in sole)
+    if weights:
+        options["weights"] = ",".join(f"{group}={float(weight)!r}" for group, weight in weights.items())
     return options
 
 
 @with_options("retarget")
 def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
              sole: Union[str, Sequence[float], None] = None,
-             hold: Optional[Mapping[str, float]] = None, objects=None, progress: Progress = None,
+             hold: Optional[Mapping[str, float]] = None,
+             weights: Optional[Mapping[str, float]] = None, objects=None, progress: Progress = None,
              **options: Unpack[RetargetOptions]) -> Retargeted:
     """Brings a person's motion to a humanoid robot, as the command does.
 
@@ -121,6 +124,8 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
     hold : dict, optional
         Angles of joints that follow nobody [deg; sliding mm] by name; ``*`` is any text:
         ``{"left_hand_*": 30}``.
+    weights : dict, optional
+        How much "feet", "hands", "trunk" and "limbs" count against each other, 0.01 to 100.
     objects : path or list of them, optional
         MMM files of rigid objects beside the person, or FILE:NAME,NAME; hands that hold one keep
         their place at it.
@@ -139,7 +144,7 @@ def retarget(recording, robot, *, map=None, sole_height: Optional[float] = None,
     if isinstance(recording, Conversion) and request:
         raise WrongValue(f"{next(iter(request))}: a conversion is taken as it is; give it to convert()")
     request.update(input_options(recording) if raw is None else {"file": source}, robot=path_text(robot),
-                   **robot_options(hold, sole))
+                   **robot_options(hold, sole, weights))
     if objects is not None:
         several = objects if isinstance(objects, (list, tuple)) else [objects]
         request["objects"] = [path_text(one) for one in several]

@@ -228,6 +228,10 @@ void MjcfDocumentReader::ReadRange(const MjcfAttributes& attributes, const XmlEl
     joint->lower = unit * (*range)[0];
     joint->upper = unit * (*range)[1];
   }
+  const auto effort = attributes.Numbers("actuatorfrcrange", 2, 2);
+  if (effort && attributes.Word("actuatorfrclimited", "auto") != "false") {
+    joint->effort = effort->cwiseAbs().maxCoeff();
+  }
   const bool is_range = joint->lower < joint->upper;
   const std::string limited = attributes.Word("limited", "auto");
   joint->is_limited =

@@ -26,6 +26,7 @@ struct MjcfJoint {
   bool is_limited = false;
   double lower = 0, upper = 0;  ///< [rad, m]
   double ref = 0;               ///< [rad, m]
+  double effort = 0;            ///< the most of what moves it [N m, N]; 0: not known
 };
 
 struct MjcfBody {

@@ -295,6 +295,13 @@ Robot MjcfRobotBuilder::Build() {
   text_.ThrowIfErrors();
   KinematicModel model(std::move(description_));
   const Eigen::VectorXd unknown = Eigen::VectorXd::Constant(model.num_joints(), kInfinity);
+  Eigen::VectorXd efforts = unknown;
+  for (const MjcfBody& body : document_.bodies) {
+    for (const MjcfJoint& joint : body.joints) {
+      const int index = joint.effort > 0 ? model.FindJoint(joint.name) : -1;
+      if (index >= 0 && model.joint(index).name == joint.name) efforts[index] = joint.effort;
+    }
+  }
   return {std::move(model),
           std::move(robot_links_),
           std::move(sites),
@@ -303,7 +310,8 @@ Robot MjcfRobotBuilder::Build() {
           unknown,
           "MJCF",
           std::move(ties),
-          text_.file()};
+          text_.file(),
+          std::move(efforts)};
 }
 
 }  // namespace

@@ -159,12 +159,26 @@ Eigen::MatrixXd QVel(const RobotMotion& motion) {
   return qvel;
 }
 
+void Append(const Eigen::MatrixXd& rows, Eigen::MatrixXd* all) {
+  all->conservativeResize(all->rows() + rows.rows(), Eigen::NoChange);
+  all->bottomRows(rows.rows()) = rows;
+}
+
+/// Objects behind the robot, each with a free joint.
 void WriteMujoco(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
                  const RobotExportOptions& options) {
-  const RobotMotion motion = DepthFirst(robot, trajectory, RateOf(options, 0));
-  WriteFileAtomically(file,
-                      FormatNpz({Array("qpos", QPos(motion)), Array("qvel", QVel(motion)),
-                                 Number("fps", motion.rate), Texts("joint_names", motion.joints)}));
+  const std::optional<double> rate = RateOf(options, 0);
+  const RobotMotion motion = DepthFirst(robot, trajectory, rate);
+  Eigen::MatrixXd qpos = QPos(motion), qvel = QVel(motion);
+  for (const PoseTrajectory& poses : options.objects) {
+    const RobotMotion object = MakeObjectMotion(poses, rate);
+    Append(QPos(object).leftCols(qpos.cols()), &qpos);
+    Append(QVel(object).leftCols(qvel.cols()), &qvel);
+  }
+  std::vector<NpyArray> arrays = {Array("qpos", qpos), Array("qvel", qvel),
+                                  Number("fps", motion.rate), Texts("joint_names", motion.joints)};
+  if (!options.objects.empty()) arrays.push_back(Texts("object_names", options.object_names));
+  WriteFileAtomically(file, FormatNpz(arrays));
 }
 
 void WriteLocoMujoco(const std::string& file, const Robot& robot, const PoseTrajectory& trajectory,
@@ -277,8 +291,9 @@ const std::vector<RobotExporter>& RobotExporters() {
       {"gmr", "export-gmr", "pkl", "root, joints and bodies as GMR and TWIST have them (pickle)",
        false, false, WriteGmr},
       {"mujoco", "export-mujoco", "npz",
-       "qpos and qvel of MuJoCo (NumPy; holosoma reads it as a retargeted motion)", false, false,
-       WriteMujoco},
+       "qpos and qvel of MuJoCo, of the robot and of objects, each on a free joint behind it "
+       "(NumPy; holosoma reads it as a retargeted motion, the last 7 of qpos as its object)",
+       false, false, WriteMujoco},
       {"locomujoco", "export-locomujoco", "npz", "a trajectory of LocoMuJoCo (NumPy)", false, false,
        WriteLocoMujoco},
       {"beyondmimic", "export-beyondmimic", "npz",

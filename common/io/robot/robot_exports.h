@@ -16,6 +16,8 @@ struct RobotExportOptions {
   std::optional<double> rate;       ///< [Hz]; nothing: the format's own, else the motion's
   std::optional<RobotOrder> order;  ///< of the formats that leave it open
   std::string motion_name = "motion";
+  std::vector<PoseTrajectory> objects = {};  ///< beside the robot, in the motion's frames
+  std::vector<std::string> object_names = {};
 };
 
 /// A format of robot learning. A row of RobotExporters() is all there is to add: the option and

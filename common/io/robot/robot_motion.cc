@@ -52,13 +52,36 @@ JointBounds BoundsOf(const Robot& robot) {
   return bounds;
 }
 
-PoseTrajectory AtRate(const Robot& robot, const PoseTrajectory& trajectory,
-                      std::optional<double> rate) {
-  if (trajectory.postures.empty()) throw Error("the motion has no frames");
-  PoseTrajectory whole = WithAllJoints(robot.model, trajectory);
-  if (rate && *rate != whole.rate) whole = Resample(whole, *rate, BoundsOf(robot));
+PoseTrajectory AtRate(PoseTrajectory whole, const JointBounds& bounds, std::optional<double> rate) {
+  if (whole.postures.empty()) throw Error("the motion has no frames");
+  if (rate && *rate != whole.rate) whole = Resample(whole, *rate, bounds);
   Differentiate(&whole);
   return whole;
+}
+
+PoseTrajectory AtRate(const Robot& robot, const PoseTrajectory& trajectory,
+                      std::optional<double> rate) {
+  return AtRate(WithAllJoints(robot.model, trajectory), BoundsOf(robot), rate);
+}
+
+/// With room for the positions of joints.
+RobotMotion MoveRoot(const PoseTrajectory& whole) {
+  const Eigen::Index frames = whole.num_frames();
+  RobotMotion motion;
+  motion.rate = whole.rate;
+  motion.root_positions.resize(3, frames);
+  motion.root_quaternions.resize(4, frames);
+  motion.joint_positions.resize(0, frames);
+  motion.joint_velocities.resize(0, frames);
+  motion.root_velocities = whole.velocities.topRows<3>();
+  motion.root_angular_velocities = whole.velocities.middleRows<3>(3);
+  for (Eigen::Index k = 0; k < frames; ++k) {
+    const Posture& posture = whole.postures[static_cast<std::size_t>(k)];
+    const Eigen::Quaterniond q = posture.orientation.normalized();
+    motion.root_positions.col(k) = posture.position;
+    motion.root_quaternions.col(k) << q.w(), q.x(), q.y(), q.z();
+  }
+  return motion;
 }
 
 /// Joints above each segment that move it, the segment's own counted.
@@ -107,26 +130,15 @@ RobotMotion MakeRobotMotion(const Robot& robot, const PoseTrajectory& trajectory
   const PoseTrajectory whole = AtRate(robot, trajectory, rate);
   const KinematicModel& model = robot.model;
   const Eigen::Index frames = whole.num_frames();
-  RobotMotion motion;
-  motion.rate = whole.rate;
+  RobotMotion motion = MoveRoot(whole);
   motion.is_root_fixed = model.is_root_fixed();
   std::vector<int> all(model.segments().size());
   std::iota(all.begin(), all.end(), 0);
   motion.joint_segments = MovingSegments(model);
   Sort(model, order, all, &motion.joint_segments);
   const auto num_joints = static_cast<Eigen::Index>(motion.joint_segments.size());
-  motion.root_positions.resize(3, frames);
-  motion.root_quaternions.resize(4, frames);
   motion.joint_positions.resize(num_joints, frames);
   motion.joint_velocities.resize(num_joints, frames);
-  motion.root_velocities = whole.velocities.topRows<3>();
-  motion.root_angular_velocities = whole.velocities.middleRows<3>(3);
-  for (Eigen::Index k = 0; k < frames; ++k) {
-    const Posture& posture = whole.postures[static_cast<std::size_t>(k)];
-    const Eigen::Quaterniond q = posture.orientation.normalized();
-    motion.root_positions.col(k) = posture.position;
-    motion.root_quaternions.col(k) << q.w(), q.x(), q.y(), q.z();
-  }
   RemoveSignJumps(&motion.root_quaternions);
   for (Eigen::Index i = 0; i < num_joints; ++i) {
     const Segment& segment = model.segments()[static_cast<std::size_t>(
@@ -140,6 +152,12 @@ RobotMotion MakeRobotMotion(const Robot& robot, const PoseTrajectory& trajectory
       motion.joint_velocities(i, k) = slope * whole.velocities(6 + segment.joint, k);
     }
   }
+  return motion;
+}
+
+RobotMotion MakeObjectMotion(const PoseTrajectory& poses, std::optional<double> rate) {
+  RobotMotion motion = MoveRoot(AtRate(poses, {}, rate));
+  RemoveSignJumps(&motion.root_quaternions);
   return motion;
 }
 

@@ -40,6 +40,9 @@ struct RobotMotion {
 RobotMotion MakeRobotMotion(const Robot& robot, const PoseTrajectory& trajectory,
                             std::optional<double> rate, RobotOrder order);
 
+/// Of a rigid object: without joints.
+RobotMotion MakeObjectMotion(const PoseTrajectory& poses, std::optional<double> rate);
+
 /// Bodies of the robot: all of its file, or the root and those that a joint moves, which is what is
 /// left where simulators merge the others into them. Indices into Robot::links.
 std::vector<int> AllLinks(const Robot& robot);

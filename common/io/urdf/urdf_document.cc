@@ -265,6 +265,7 @@ void DocumentBuilder::ReadAxis(const urdf::Joint& source, UrdfJoint* joint) {
 void DocumentBuilder::ReadLimits(const urdf::Joint& source, UrdfJoint* joint) {
   if (!source.limits) return;
   joint->velocity = std::max(source.limits->velocity, 0.0);
+  joint->effort = std::max(source.limits->effort, 0.0);
   joint->lower = source.limits->lower;
   joint->upper = source.limits->upper;
   if (joint->lower <= joint->upper) return;

@@ -41,6 +41,7 @@ struct UrdfJoint {
   double mimic_offset = 0;                                 ///< [rad], prismatic [m]
   double mimic_multiplier = 1;
   double velocity = 0;  ///< the fastest [rad/s], prismatic [m/s]; 0: not known
+  double effort = 0;    ///< the most [N m], prismatic [N]; 0: not known
 };
 
 /// The tree of a URDF: links and joints in the order of the file, without looks and sensors.

@@ -23,6 +23,7 @@ namespace {
 constexpr std::string_view kMarkerSuffix = "_marker";
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kWidestRange = 4 * EIGEN_PI;  // [rad]; beyond it a limit limits nothing
+constexpr double kSlideReach = 1;              // [m], of slides without limits
 
 class UrdfModelBuilder {
  public:
@@ -51,7 +52,7 @@ class UrdfModelBuilder {
   ModelDescription description_;
   std::map<std::string, std::string> segment_of_link_;
   std::map<std::string, int> joint_by_name_;
-  std::vector<std::string> slides_, stiff_;  ///< joints
+  std::vector<std::string> stiff_;  ///< joints
 };
 
 bool UrdfModelBuilder::IsMarker(const UrdfLink& link) const {
@@ -91,14 +92,18 @@ void UrdfModelBuilder::HoldAt(const UrdfJoint& joint, double value, Segment* seg
 }
 
 void UrdfModelBuilder::SetRange(const UrdfJoint& joint, Segment* segment) {
-  segment->type = JointType::kRevolute;
+  const bool slides = joint.type == UrdfJointType::kPrismatic;
+  segment->type = slides ? JointType::kSliding : JointType::kRevolute;
   segment->lower = joint.lower;
   segment->upper = joint.upper;
-  if (joint.type == UrdfJointType::kContinuous ||
-      (joint.lower < -kWidestRange && joint.upper > kWidestRange)) {
+  const double widest = slides ? kLongestLength : kWidestRange;
+  const bool is_wide = joint.lower < -widest || joint.upper > widest;
+  if (joint.type == UrdfJointType::kContinuous || (slides && is_wide) ||
+      (joint.lower < -widest && joint.upper > widest)) {
     segment->lower = -kInfinity;
     segment->upper = kInfinity;
-  } else if (joint.lower < -kWidestRange || joint.upper > kWidestRange) {
+    if (slides) segment->reach = kSlideReach;
+  } else if (is_wide) {
     diagnostics_.AddError(joint.line, fmt::format("joint '{}': its limits {:.6g} to {:.6g} are not "
                                                   "in radian",
                                                   joint.name, joint.lower, joint.upper));
@@ -118,9 +123,6 @@ void UrdfModelBuilder::SetJoint(const UrdfJoint& joint, Segment* segment) {
         joint.line,
         fmt::format("joint '{}': {} joints are not supported; only the root link floats, by itself",
                     joint.name, joint.type == UrdfJointType::kPlanar ? "planar" : "floating"));
-  } else if (joint.type == UrdfJointType::kPrismatic) {
-    slides_.push_back(joint.name);
-    if (joint.mimicked.empty()) HoldAt(joint, std::clamp(0.0, joint.lower, joint.upper), segment);
   } else if (joint.mimicked.empty()) {
     SetRange(joint, segment);
   }
@@ -178,17 +180,17 @@ void UrdfModelBuilder::Follow(const UrdfJoint& joint, Segment* segment) {
   const int index = segment_[static_cast<std::size_t>(leader->child)];
   const Segment* moved =
       index < 0 ? nullptr : &description_.segments[static_cast<std::size_t>(index)];
-  const bool moves = moved != nullptr && moved->type == JointType::kRevolute;
-  if (!moves || joint.type == UrdfJointType::kPrismatic) {
-    const double held = leader->type == UrdfJointType::kFixed || moves
-                            ? 0
-                            : std::clamp(0.0, leader->lower, leader->upper);
+  if (moved == nullptr || moved->type == JointType::kFixed) {
+    const double held =
+        leader->type == UrdfJointType::kFixed ? 0 : std::clamp(0.0, leader->lower, leader->upper);
     HoldAt(joint, slope * held + offset, segment);
     return;
   }
-  segment->type = JointType::kRevolute;
+  const bool slides = joint.type == UrdfJointType::kPrismatic;
+  segment->type = slides ? JointType::kSliding : JointType::kRevolute;
   segment->lower = moved->lower;
   segment->upper = moved->upper;
+  segment->reach = slides && HasNoLimits(*moved) ? kSlideReach : moved->reach;
   segment->leader = index;
   if (slope == 1 && offset == 0) return;
   segment->function = std::make_shared<const ScalarFunction>(ScalarFunction::Linear(slope, offset));
@@ -225,8 +227,7 @@ UrdfModel UrdfModelBuilder::Build() {
   FindLeaders();
   AddMarkers();
   diagnostics_.ThrowIfErrors();
-  WarnOf(slides_, "(prismatic): held, sliding is not tracked, and no written file has it");
-  WarnOf(stiff_, "(revolute with equal limits): does not turn");
+  WarnOf(stiff_, "(with equal limits): does not move");
   return {KinematicModel(std::move(description_)), std::move(segment_of_link_)};
 }
 

@@ -25,7 +25,7 @@ class UrdfRobotBuilder {
   const UrdfLink& LinkAt(int link) const { return document_.links[static_cast<std::size_t>(link)]; }
   void PlaceLinks();
   void ListLinks();
-  void SetVelocityLimits();
+  void SetLimits();
 
   const UrdfDocument& document_;
   const std::map<std::string, std::string> segment_of_link_;
@@ -75,16 +75,20 @@ void UrdfRobotBuilder::ListLinks() {
   }
 }
 
-void UrdfRobotBuilder::SetVelocityLimits() {
+/// What follows another joint has no motor.
+void UrdfRobotBuilder::SetLimits() {
   robot_.velocity_limits.setConstant(robot_.model.num_joints(),
                                      std::numeric_limits<double>::infinity());
-  std::map<std::string, double> velocity_of;
-  for (const UrdfJoint& joint : document_.joints) velocity_of[joint.name] = joint.velocity;
+  robot_.effort_limits = robot_.velocity_limits;
+  std::map<std::string, const UrdfJoint*> joints;
+  for (const UrdfJoint& joint : document_.joints) joints[joint.name] = &joint;
   for (const Segment& segment : robot_.model.segments()) {
     if (segment.joint < 0) continue;
+    const UrdfJoint& joint = *joints.at(segment.name);
+    if (segment.leader < 0 && joint.effort > 0) robot_.effort_limits[segment.joint] = joint.effort;
     double slope = 1;
     if (segment.function) segment.function->Value(0, &slope);
-    const double velocity = velocity_of.at(segment.name);
+    const double velocity = joint.velocity;
     if (velocity <= 0 || slope == 0) continue;
     double& limit = robot_.velocity_limits[segment.joint];
     limit = std::min(limit, velocity / std::abs(slope));
@@ -94,7 +98,7 @@ void UrdfRobotBuilder::SetVelocityLimits() {
 Robot UrdfRobotBuilder::Build() {
   PlaceLinks();
   ListLinks();
-  SetVelocityLimits();
+  SetLimits();
   for (ContactShape shape : document_.shapes) {
     const Robot::Link& place = places_[static_cast<std::size_t>(shape.segment)];
     shape.segment = place.segment;

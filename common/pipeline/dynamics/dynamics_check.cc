@@ -5,6 +5,10 @@
 
 #include "common/contacts/contacts.h"
 #include "common/forces/recording_forces.h"
+#include "common/io/bytes/file_content.h"
+#include "common/io/mjcf/mjcf_robot.h"
+#include "common/io/robot/robot_file.h"
+#include "common/io/urdf/urdf_model_reader.h"
 #include "common/math/up_axis.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
@@ -22,6 +26,17 @@ JointForces WithForces(const CheckedMotion& motion, const Contacts& feet,
     one->rightCols(found.num_frames() - motion.end).setConstant(kNaN);
   }
   return found;
+}
+
+/// Empty: the model is no robot's.
+Eigen::VectorXd EffortLimits(const CheckedMotion& motion) {
+  constexpr std::size_t kStart = 1 << 16;
+  if (motion.model_file.empty()) return {};
+  const std::string start = ReadFileStart(motion.model_file, kStart);
+  if (!IsUrdf(start) && !IsMjcf(start)) return {};
+  const Robot robot = ReadRobotFile(motion.model_file);
+  return robot.model.num_joints() == motion.model.num_joints() ? robot.effort_limits
+                                                               : Eigen::VectorXd();
 }
 
 }  // namespace
@@ -52,7 +67,7 @@ DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& option
       ComputeMotionDynamics(motion.model, motion.trajectory, of_frames, progress, by_plates);
   std::optional<JointForces> with_forces;
   if (forces) with_forces = WithForces(motion, feet, *forces, options.cutoff);
-  Plausibility judged = JudgeDynamics(motion.model, dynamics);
+  Plausibility judged = JudgeDynamics(motion.model, dynamics, EffortLimits(motion));
   return {std::move(motion), std::move(dynamics), std::move(judged), std::move(with_forces)};
 }
 

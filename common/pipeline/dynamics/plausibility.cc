@@ -282,6 +282,31 @@ DynamicsCheck CheckTorque(const MotionDynamics& dynamics, const Plausibility& ju
       fmt::format("no joint of a body has more than some {:g} N m for each kilogram", kMostTorque));
 }
 
+// Of joints whose motors' limits are known, the one that needs most of its own.
+DynamicsCheck CheckMotors(const KinematicModel& model, const Eigen::VectorXd& limits,
+                          const Plausibility& judged) {
+  const char* name = "motors off the ground";
+  const std::string expected = "at most what they have";
+  if (!judged.differentiation.empty()) return NotJudged(name, expected, judged.differentiation);
+  const JointPeak* worst = nullptr;
+  double most = 0, limit = 0;
+  for (const JointPeak& peak : judged.peaks) {
+    const double of_joint = limits[model.FindJoint(peak.joint)];
+    if (!std::isfinite(of_joint) || !(peak.torque / of_joint >= most)) continue;
+    worst = &peak;
+    limit = of_joint;
+    most = peak.torque / of_joint;
+  }
+  if (worst == nullptr) {
+    return NotJudged(name, expected, "the ground's force goes through all of them in all frames");
+  }
+  const bool slides = model.joint(model.FindJoint(worst->joint)).type == JointType::kSliding;
+  return Judged(name,
+                fmt::format("{:.1f} of {:g} N{}, {} at {:.2f} s", worst->torque, limit,
+                            slides ? "" : " m", worst->joint, worst->torque_time),
+                expected, most <= 1, "the robot's file allows its motor no more");
+}
+
 // Whether the segment lies below the joint, or is its own.
 bool IsBelow(const KinematicModel& model, int segment, int joint_segment) {
   while (segment > joint_segment) segment = model.segments()[segment].parent;
@@ -350,7 +375,8 @@ const char* Name(DynamicsJudgement judgement) {
   return "";
 }
 
-Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dynamics) {
+Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dynamics,
+                           const Eigen::VectorXd& effort_limits) {
   Plausibility judged;
   judged.differentiation = WhyNoForces(dynamics);
   if (judged.differentiation.empty()) MeasureFreeJoints(model, dynamics, &judged);
@@ -358,6 +384,9 @@ Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dy
   AddGroundChecks(dynamics, judged.differentiation, &judged.checks);
   AddFlightChecks(dynamics, judged.differentiation, &judged.checks);
   judged.checks.push_back(CheckTorque(dynamics, judged));
+  if (effort_limits.array().isFinite().any()) {
+    judged.checks.push_back(CheckMotors(model, effort_limits, judged));
+  }
   // The first two hold for every motion: alone, they say nothing of this one.
   for (std::size_t i = 0; i < judged.checks.size(); ++i) {
     const DynamicsJudgement judgement = judged.checks[i].judgement;

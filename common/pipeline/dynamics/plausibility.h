@@ -60,8 +60,9 @@ struct Plausibility {
   Eigen::MatrixXd powers;  ///< joints x frames [W]; the same
 };
 
-/// model: that of the dynamics.
-Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dynamics);
+/// model: that of the dynamics. effort_limits: Robot::effort_limits; empty: no robot's.
+Plausibility JudgeDynamics(const KinematicModel& model, const MotionDynamics& dynamics,
+                           const Eigen::VectorXd& effort_limits = {});
 
 /// Vertical component of the residual force in each frame, in body weights.
 Eigen::VectorXd VerticalForce(const MotionDynamics& dynamics);

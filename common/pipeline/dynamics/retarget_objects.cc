@@ -152,13 +152,21 @@ std::vector<TrackedObject> AlignObjects(const PoseTrajectory& person,
 }
 
 PoseTrajectory PosesOf(const TrackedObject& object, const PoseTrajectory& frames) {
+  PoseTrajectory poses = PosesAlways(object, frames);
+  poses.first_time = frames.time(object.begin);
+  poses.postures = {poses.postures.begin() + object.begin, poses.postures.begin() + object.end};
+  return poses;
+}
+
+PoseTrajectory PosesAlways(const TrackedObject& object, const PoseTrajectory& frames) {
   PoseTrajectory poses;
   poses.rate = frames.rate;
-  poses.first_time = frames.time(object.begin);
-  for (int k = object.begin; k < object.end; ++k) {
+  poses.first_time = frames.first_time;
+  for (int k = 0; k < frames.num_frames(); ++k) {
+    const Eigen::Isometry3d& X = object.X_WO[std::clamp(k, object.begin, object.end - 1)];
     Posture& posture = poses.postures.emplace_back();
-    posture.position = object.X_WO[k].translation();
-    posture.orientation = Eigen::Quaterniond(object.X_WO[k].linear());
+    posture.position = X.translation();
+    posture.orientation = Eigen::Quaterniond(X.linear());
     posture.joint_angles.resize(0);
   }
   return poses;

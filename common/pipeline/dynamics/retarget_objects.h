@@ -33,6 +33,9 @@ std::vector<TrackedObject> AlignObjects(const PoseTrajectory& person,
 /// The frames in which it is known. frames: has their times.
 PoseTrajectory PosesOf(const TrackedObject& object, const PoseTrajectory& frames);
 
+/// All frames: where it is not known as in the nearest one in which it is.
+PoseTrajectory PosesAlways(const TrackedObject& object, const PoseTrajectory& frames);
+
 /// The file of the model that it names, which may give its size; empty: there is none.
 std::string NamedModel(const RecordedObject& object);
 

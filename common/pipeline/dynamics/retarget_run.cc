@@ -276,8 +276,13 @@ void ExportRobotMotion(const RobotExporter& format, const std::string& file,
   const double own = format.rate > 0 ? format.rate : report->retargeted.motion.rate;
   const double rate = options.rate.value_or(own);
   RateFit* fit = IsExportRate(rate) ? FitAt(rate, report) : nullptr;  // else it is refused below
-  const PoseTrajectory& motion = fit ? fit->retargeted.motion : report->retargeted.motion;
-  format.write(file, report->robot, motion, options);
+  const Retargeted& retargeted = fit ? fit->retargeted : report->retargeted;
+  RobotExportOptions with_objects = options;
+  for (const TrackedObject& object : retargeted.objects) {
+    with_objects.objects.push_back(PosesAlways(object, retargeted.motion));
+    with_objects.object_names.push_back(object.name);
+  }
+  format.write(file, report->robot, retargeted.motion, with_objects);
   if (fit != nullptr) {
     fit->files.push_back(file);
     TakeWorse(file, *fit, &report->verdict);

@@ -34,6 +34,7 @@ namespace {
 using testing::MakeBiped;
 using testing::Person;
 using testing::SharedData;
+using testing::Shuffle;
 using testing::Squat;
 
 constexpr double kDegree = std::numbers::pi / 180;
@@ -175,6 +176,55 @@ TEST(RetargetTest, FrameByFrameFeetStandStillAndLimitsAreKept) {
     EXPECT_EQ(figures.velocity_breaks, 0);
     EXPECT_LT(figures.direction, (velocity < 2 ? 8 : 2) * kDegree);
   }
+}
+
+TEST(RetargetTest, FeetThatSwingLowClearTheFloorAsThePersons) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  const RobotBody body = FindRobotBody(robot, {}, {});
+  const Retargeted result = RetargetMotion(person, Shuffle(person, 0.3, 0.02), robot, body);
+  const RetargetFigures figures = MeasureRetargeting(result, robot, body);
+  EXPECT_EQ(figures.slide, 0);
+  EXPECT_LT(figures.penetration, 3e-4);
+  int swings = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (int k = 0; k < result.human.num_frames(); ++k) {
+      const PointState& heel = result.states.heels[i];
+      const PointState& toe = result.states.toes[i];
+      const double clearance = std::min(heel.height[k], toe.height[k]);
+      if (toe.speed[k] < 0.8 || clearance < 0.01) continue;
+      ++swings;
+      // By as much as a stance may be off.
+      EXPECT_GT(figures.feet[i].height[k], result.scale * clearance - 5e-4) << i << " " << k;
+    }
+  }
+  EXPECT_GT(swings, 100);
+}
+
+TEST(AimWeightsTest, AreOfGroupsWithinBounds) {
+  const AimWeights weights = ParseAimWeights("feet=2, hands = .5");
+  EXPECT_EQ(weights.feet, 2);
+  EXPECT_EQ(weights.hands, 0.5);
+  EXPECT_EQ(weights.trunk, 1);
+  EXPECT_EQ(weights.limbs, 1);
+  for (const char* wrong : {"feet", "feet=", "=2", "foot=2", "feet=0", "feet=nan", "hands=1e9",
+                            "trunk=-1", "feet=1,feet=2", "feet=2,"}) {
+    EXPECT_THROW(ParseAimWeights(wrong), Error) << wrong;
+  }
+}
+
+TEST(AimWeightsTest, WhatWeighsMoreIsNearer) {
+  const KinematicModel person = Person(1.75);
+  const Robot robot = MakeBiped({});
+  RobotBody body = FindRobotBody(robot, {}, {});
+  const auto worst = [&](const AimWeights& weights) {
+    body.weights = weights;
+    const Retargeted result = RetargetMotion(person, Squat(person), robot, body);
+    return MeasureRetargeting(result, robot, body).direction;
+  };
+  const double as_is = worst({});
+  EXPECT_LT(worst({1, 1, 1, 25}), 0.8 * as_is);
+  EXPECT_GT(worst({1, 1, 25, 1}), as_is);
 }
 
 /// Brings the left forearm to the trunk and beyond.

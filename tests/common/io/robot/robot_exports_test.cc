@@ -12,6 +12,7 @@
 #include "common/io/bytes/file_content.h"
 #include "common/io/mjcf/mjcf_robot.h"
 #include "common/io/robot/robot_file.h"
+#include "common/io/urdf/urdf_robot.h"
 #include "common/model/forward_kinematics.h"
 #include "common/support/error.h"
 #include "tests/support/random_posture.h"
@@ -205,6 +206,54 @@ assert d['joint_names'].tolist()[:2] == ['root', 'left_hip'] and d['njnt'] == 6
 assert d['jnt_type'].tolist() == [0, 3, 3, 3, 3, 3] and d['frequency'].tolist() == 100.0
 assert d['split_points'].tolist() == [0, 101] and d['split_points'].dtype.kind == 'i'
 )");
+}
+
+TEST(RobotExports, ObjectsAreFreeJointsBehindTheRobot) {
+  if (!HasNumPy()) GTEST_SKIP() << "needs Debian's python3 with numpy";
+  const Robot robot = Walker();
+  const PoseTrajectory motion = Swing(robot.model);
+  RobotExportOptions options = At(50);
+  PoseTrajectory box = motion;
+  box.joint_names.clear();
+  for (Posture& posture : box.postures) {
+    posture.position.x() += 2;
+    posture.joint_angles.resize(0);
+  }
+  options.objects = {box};
+  options.object_names = {"box"};
+  RunPython(Write("mujoco", robot, motion, options), R"(d = np.load(f)
+q, v = d['qpos'], d['qvel']
+assert q.shape == (51, 12 + 7) and v.shape == (51, 11 + 6) and d['object_names'].tolist() == ['box']
+assert len(d['joint_names']) == 5
+# As holosoma takes them.
+assert np.abs(q[:, -7:-4] - q[:, :3] - [2, 0, 0]).max() < 1e-12
+assert np.abs(q[:, -4:] - q[:, 3:7]).max() == 0 and np.abs(v[:, -6:] - v[:, :6]).max() < 1e-9
+)");
+}
+
+TEST(RobotExports, JointsThatSlideStandInTheirPlaceInMetres) {
+  const auto joint = [](const std::string& name, const std::string& type, const std::string& links,
+                        const std::string& more) {
+    return "<joint name='" + name + "' type='" + type + "'>" + links + "<axis xyz='0 0 1'/>" +
+           "<limit lower='-1' upper='1' effort='1' velocity='9'/>" + more + "</joint>";
+  };
+  const Robot robot = ParseUrdfRobot(
+      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='d'/>" +
+          joint("turn", "revolute", "<parent link='a'/><child link='b'/>", "") +
+          joint("lift", "prismatic", "<parent link='b'/><child link='c'/>", "") +
+          joint("finger", "prismatic", "<parent link='c'/><child link='d'/>",
+                "<mimic joint='lift' multiplier='-0.5' offset='0.1'/>") +
+          "</robot>",
+      "r.urdf");
+  PoseTrajectory motion = Swing(robot.model);
+  ASSERT_THAT(motion.joint_names, ElementsAre("turn", "lift"));
+  for (const RobotOrder order : {RobotOrder::kDepthFirst, RobotOrder::kBreadthFirst}) {
+    const RobotMotion moved = MakeRobotMotion(robot, motion, {}, order);
+    EXPECT_THAT(moved.joints, ElementsAre("turn", "lift", "finger"));
+    const Eigen::VectorXd& q = motion.postures[37].joint_angles;
+    EXPECT_EQ(moved.joint_positions.col(37), Eigen::Vector3d(q[0], q[1], 0.1 - 0.5 * q[1]));
+  }
+  EXPECT_THAT(robot.effort_limits, ElementsAre(1, 1));
 }
 
 TEST(RobotExports, BeyondMimicNeedsAnOrderAndHasVelocitiesOfBodies) {

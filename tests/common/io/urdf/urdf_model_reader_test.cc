@@ -99,12 +99,11 @@ TEST(UrdfModel, HumanoidIsRead) {
   const LoadedModel read = ReadModelFile(Humanoid(), &warnings);
   EXPECT_FALSE(read.is_reference);
   EXPECT_EQ(read.model.name(), "humanoid");
-  EXPECT_EQ(read.model.num_joints(), 31);
+  EXPECT_EQ(read.model.num_joints(), 32);
   EXPECT_EQ(read.model.markers().size(), 47u);
   EXPECT_NEAR(read.model.total_mass(), 59.8, 1e-12);  // rounding of a sum
   EXPECT_EQ(read.model.joint(read.model.FindJoint("left_knee")).upper, 2.4);
-  EXPECT_THAT(warnings.texts(),
-              ElementsAre(AllOf(HasSubstr("joint lift"), HasSubstr("prismatic"))));
+  EXPECT_THAT(warnings.texts(), IsEmpty());
 }
 
 TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
@@ -116,10 +115,30 @@ TEST(UrdfModel, WhatCanNotMoveIsHeldAndNamed) {
     return read.model.segments()[1].X_PF;
   };
   const std::string limit = "<limit effort='1' velocity='1' ";
-  EXPECT_EQ(held("prismatic", limit + "lower='0.2' upper='1'/>").translation().z(), 0.2);
-  EXPECT_EQ(held("prismatic", limit + "lower='-1' upper='1'/>").translation().z(), 0);
+  EXPECT_EQ(held("prismatic", limit + "lower='0.2' upper='0.2'/>").translation().z(), 0.2);
   const Eigen::Isometry3d X = held("revolute", limit + "lower='0.5' upper='0.5'/>");
   EXPECT_NEAR(Eigen::AngleAxisd(X.linear()).angle(), 0.5, kUrdfRounding);
+}
+
+TEST(UrdfModel, PrismaticJointsSlide) {
+  const auto slide = [](const std::string& limits) {
+    Warnings warnings;
+    UrdfModel read = ParseUrdfModel(
+        Hinge("prismatic", "<axis xyz='0 0 2'/><limit effort='1' velocity='1' " + limits + "/>"),
+        "r.urdf", &warnings);
+    EXPECT_THAT(warnings.texts(), IsEmpty());
+    return read.model;
+  };
+  const KinematicModel model = slide("lower='0.2' upper='1'");
+  ASSERT_EQ(model.num_joints(), 1);
+  EXPECT_EQ(model.joint(0).type, JointType::kSliding);
+  EXPECT_EQ(ZeroPosture(model).joint_angles[0], 0.2);
+  const Eigen::Vector3d low = SegmentPoses(model, ZeroPosture(model))[1].translation();
+  Posture posture = ZeroPosture(model);
+  posture.joint_angles[0] = 0.7;
+  const Eigen::Vector3d high = SegmentPoses(model, posture)[1].translation();
+  EXPECT_NEAR((high - low).z(), 0.5, kUrdfRounding);
+  EXPECT_TRUE(HasNoLimits(slide("lower='-1e9' upper='1e9'").joint(0)));
 }
 
 TEST(UrdfModel, MimicJointsFollow) {
@@ -149,11 +168,11 @@ TEST(UrdfModel, MimicJointsFollow) {
   EXPECT_NEAR(JointValue(again.model.segments()[3], 0.5), -1.2, kUrdfRounding);
 }
 
-TEST(UrdfModel, MimicsOfWhatDoesNotTurnAreHeld) {
+TEST(UrdfModel, MimicsOfWhatDoesNotMoveAreHeld) {
   const UrdfModel read =
       ParseUrdfModel(RobotText("<link name='a'/><link name='b'/><link name='c'/>" +
                                Joint("k", "prismatic", "a", "b",
-                                     "<limit lower='0.2' upper='1' effort='1' velocity='1'/>") +
+                                     "<limit lower='0.2' upper='0.2' effort='1' velocity='1'/>") +
                                Joint("j", "continuous", "b", "c",
                                      "<mimic joint='k' multiplier='2' offset='0.3'/>")),
                      "r.urdf");
