@@ -88,11 +88,18 @@ std::string DescribeResults() {
   std::string text;
   {
     const PoseTrajectory object;
-    MEMBERS(a, b, c, d, e, f, g);
+    MEMBERS(a, b, c, d, e, f, g, h);
     text += Whole<PoseTrajectory>("PoseTrajectory") + PART(PoseTrajectory, rate) +
             PART(PoseTrajectory, first_time) + PART(PoseTrajectory, joint_names) +
             PART(PoseTrajectory, postures) + PART(PoseTrajectory, standard_deviations) +
-            PART(PoseTrajectory, velocities) + PART(PoseTrajectory, accelerations);
+            PART(PoseTrajectory, correlations) + PART(PoseTrajectory, velocities) +
+            PART(PoseTrajectory, accelerations);
+  }
+  {
+    const PoseCorrelation object;
+    MEMBERS(a, b);
+    text += Whole<PoseCorrelation>("PoseCorrelation") + PART(PoseCorrelation, time) +
+            PART(PoseCorrelation, correlation);
   }
   {
     const MarkerIncident object;
