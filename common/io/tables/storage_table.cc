@@ -10,8 +10,6 @@
 namespace mmm_converter {
 namespace {
 
-constexpr std::size_t kHeaderBytes = 1 << 16;
-
 bool IsEndOfHeader(std::string_view line) {
   std::vector<std::string_view> cells;
   SplitCells(line, ' ', &cells);
@@ -34,11 +32,6 @@ std::vector<std::string> NamesOf(std::string_view line) {
 }
 
 }  // namespace
-
-bool LooksLikeStorage(std::string_view content) {
-  LineReader lines(content.substr(0, kHeaderBytes));
-  return SkipHeader(&lines);
-}
 
 StorageTable ParseStorage(std::string_view content, const std::string& file) {
   LineReader lines(content);

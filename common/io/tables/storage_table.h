@@ -14,9 +14,6 @@ struct StorageTable {
   Eigen::MatrixXd rows;              ///< a row for each time; NaN where there is no number
 };
 
-/// True if a text can be such a table: a line "endheader" is near its beginning.
-bool LooksLikeStorage(std::string_view content);
-
 /// `file` is only named in messages.
 /// @throws Error where there is no "endheader", no column "time", no row, or a row has another
 ///         number of cells than there are columns.
