@@ -9,8 +9,8 @@
 #include <string>
 
 #include "common/io/bytes/file_content.h"
-#include "common/io/robot/robot_motion.h"
 #include "common/io/robot/robot_file.h"
+#include "common/io/robot/robot_motion.h"
 #include "common/math/seeded_random.h"
 #include "common/model/forward_kinematics.h"
 #include "tests/support/random_posture.h"

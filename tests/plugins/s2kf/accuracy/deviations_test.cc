@@ -16,10 +16,10 @@
 #include <utility>
 #include <vector>
 
-#include "common/motion/anatomical_angles.h"
 #include "common/convert/converter_config.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
+#include "common/motion/anatomical_angles.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
 #include "plugins/s2kf/s2kf_converter.h"
