@@ -30,7 +30,7 @@ struct CalibrationOptions {
   double side_correlation = 0;     ///< of markers at the same place of both sides
   double scale_deviation = 0.06;   ///< of a segment's scale
   double axis_deviation = 0.04;    ///< of a body's scale along an axis from its others' mean
-  double side_deviation = 0.02;    ///< of left against right scale
+  double side_deviation = 0.015;   ///< of left against right scale
   double height_deviation = 0;     ///< of all scales together, where the height is a guess
   double skin_deviation = 0.004;   ///< of a marker in its segment from frame to frame [m]
   double skin_time = 0.3;          ///< in which the skin moves on: nearer frames repeat it [s]

@@ -391,12 +391,18 @@ TEST(CheckDynamicsRealFiles, ACalibratedJumpFallsFreely) {
   const std::string summary = TestFolder() + "/s.json";
   RunProgram({"check-dynamics", motion, "--subject-file", subject, "--summary", summary});
   const Json json = Json::parse(ReadText(summary));
-  const Json& flight = json["flights"].front();
+  // Others are the steps before and after.
+  const auto length = [](const Json& one) {
+    return one["last_frame"].get<int>() - one["first_frame"].get<int>();
+  };
+  const Json flight =
+      *std::max_element(json["flights"].begin(), json["flights"].end(),
+                        [&](const Json& a, const Json& b) { return length(a) < length(b); });
   EXPECT_GE(flight["first_frame"], 500);
   EXPECT_LE(flight["last_frame"], 575);
   constexpr double kG = 9.81;
   EXPECT_NEAR(flight["differentiated_acceleration_m_per_s2"][2].get<double>(), -kG, 0.1 * kG);
-  // The parabola, which is stricter, misses 10 % by a little: measured 10.8 %.
+  // The parabola, which is stricter, misses 10 % by a little: measured 11.6 %.
   EXPECT_NEAR(flight["acceleration_m_per_s2"][2].get<double>(), -kG, 0.12 * kG);
   EXPECT_LT(flight["angular_momentum_variation"].get<double>(), 0.15);
 }

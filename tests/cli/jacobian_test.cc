@@ -42,7 +42,7 @@ TEST(Jacobian, ConvertsTheSampleWithoutAConfiguration) {
   EXPECT_EQ(json["frames"], 675);
   // In the two quickest frames the fit ends at its most iterations.
   EXPECT_EQ(json["frames_not_converged"], 2);
-  EXPECT_NEAR(json["distance_mm"]["mean"].get<double>(), 37.94, 0.02);  // the sample's optimum
+  EXPECT_NEAR(json["distance_mm"]["mean"].get<double>(), 37.73, 0.02);  // the sample's optimum
   EXPECT_EQ(ReadMmmMotionFile(TestFolder() + "/o.xml").motions.at(0).trajectory.num_frames(), 675);
   // No standard deviations: cells are empty.
   const std::string table = ReadText(csv);
@@ -57,7 +57,7 @@ TEST(Jacobian, ShippedConfigurationsDoWhatTheyAreFor) {
     return ConvertSample({"-c", Shipped(name)})["distance_mm"]["mean"].get<double>();
   };
   const double least_squares = mean("jacobian_least_squares");
-  EXPECT_NEAR(least_squares, 37.94, 0.02);
+  EXPECT_NEAR(least_squares, 37.73, 0.02);
   EXPECT_NEAR(mean("jacobian_pull"), least_squares, 0.15);
   const double gradient = mean("jacobian_gradient");
   // It lags in the quick parts and has nearly the optimum elsewhere.

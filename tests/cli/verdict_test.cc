@@ -378,7 +378,7 @@ TEST(Verdict, AMarkerThatIsFarForAMoment) {
 // The foot turns to the heel, so that the heel's own distance is what right ones have, too. Much of
 // the hip is taken up by the posture of a single frame, but not by those of all together.
 TEST(Verdict, ALabelThatIsWornElsewhere) {
-  for (const auto& [label, way] : {std::pair("LHEE", 0.16), {"LASI", 0.16}, {"LHIP", 0.13}}) {
+  for (const auto& [label, way] : {std::pair("LHEE", 0.16), {"LASI", 0.16}, {"LHIP", 0.16}}) {
     const int moved = Sample().FindLabel(label);
     const Judged judged = ConvertMarkers(Changed([&, z = way](int, int i, Point p) {
       if (i == moved) p.z() -= z;

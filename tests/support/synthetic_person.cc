@@ -17,6 +17,7 @@
 #include "common/model/kit_joints.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/support/units.h"
 #include "tests/support/all_indices.h"
 #include "tests/support/shared_data.h"
 
@@ -75,6 +76,12 @@ Subject DrawPerson(const KinematicModel& model, std::uint64_t seed, double marke
   return subject;
 }
 
+/// As far as standing people bend a joint: their weight bends hips and ankles further.
+double UpperOfStanding(const Segment& joint) {
+  if (joint.name.ends_with("Hx_joint")) return std::min(joint.upper, 95 / kDegrees);
+  return joint.name.ends_with("Ax_joint") ? std::min(joint.upper, 30 / kDegrees) : joint.upper;
+}
+
 PoseTrajectory RangeOfMotion(const KinematicModel& model, double seconds, double share,
                              std::uint64_t seed) {
   SeededRandom random(seed);
@@ -97,9 +104,10 @@ PoseTrajectory RangeOfMotion(const KinematicModel& model, double seconds, double
     q.joint_angles.resize(static_cast<Eigen::Index>(joints.size()));
     for (std::size_t j = 0; j < joints.size(); ++j) {
       const Segment& joint = model.joint(joints[j]);
+      const double upper = UpperOfStanding(joint);
       const double swing = std::sin(2 * std::numbers::pi * frequency[j] * t + phase[j]);
       q.joint_angles[static_cast<Eigen::Index>(j)] =
-          0.5 * share * (joint.lower + joint.upper + swing * (joint.upper - joint.lower));
+          0.5 * share * (joint.lower + upper + swing * (upper - joint.lower));
     }
     motion.postures.push_back(q);
   }
