@@ -251,14 +251,16 @@ std::optional<UpAxis> GroundUnderWhoLies(const MarkerSequence& markers, double m
   constexpr double kLowest = -0.03, kHighest = 0.2, kRange = 0.1, kThickness = 0.05;
   const auto regions = BodyRegionsOf(markers.labels());
   const bool has_feet = !LabelsIn(regions, BodyRegion::kFeet).empty();
-  if (!has_feet || IsOnGround(markers, metres, body)) return std::nullopt;
-  const auto found = std::find_if(usual.begin(), usual.end(), [&](UpAxis axis) {
-    if (static_cast<int>(axis) % 3 == static_cast<int>(body) % 3) return false;
+  const bool may_lie = has_feet && !IsOnGround(markers, metres, body);
+  for (const UpAxis axis : usual) {
+    if (!may_lie || static_cast<int>(axis) % 3 == static_cast<int>(body) % 3) continue;
     const LowEnd low = LowEndOf(markers, axis);
-    return metres * low.median > kLowest && metres * low.median < kHighest &&
-           metres * low.range < kRange && metres * MedianHeight(markers, axis) > kThickness;
-  });
-  return found == usual.end() ? std::nullopt : std::optional(*found);
+    if (metres * low.median > kLowest && metres * low.median < kHighest &&
+        metres * low.range < kRange && metres * MedianHeight(markers, axis) > kThickness) {
+      return axis;
+    }
+  }
+  return std::nullopt;
 }
 
 /// Who crouches or lies tells no axis, or one that is not up: the ground does, and else the
