@@ -148,7 +148,8 @@ class Model(Presented):
 
     def angles(self, motion) -> Angles:
         """Angles of a `Motion` or `Conversion` by their anatomical names, in degrees; with standard
-        deviations where it has them.
+        deviations where it has them, of joints whose errors are taken as independent: those of
+        `Conversion.angles` know how they hang together.
 
         Examples
         --------
