@@ -29,7 +29,7 @@ class SlippedMarkersTest : public ::testing::Test {
       p << -0.13, 0.13, -0.05, 0.05, 0.1, 0.1, -0.08, -0.08, 0, 0, 0.01, 0.01;
       p(2, k % 4) += 0.003 * std::sin(0.06 * k);
       const Eigen::AngleAxisd turn(0.2 * std::sin(0.05 * k), Eigen::Vector3d(1, 2, 3).normalized());
-      pelvis_.frame(k) = (turn * p).colwise() + Eigen::Vector3d(0, 0.01 * k, 1);
+      pelvis_.frame(k) = (turn.toRotationMatrix() * p).colwise() + Eigen::Vector3d(0, 0.01 * k, 1);
     }
   }
 
