@@ -28,8 +28,8 @@ constexpr Limit kSlopeOfSole = {15, kNever};
 constexpr double kMostOfThem = 0.5;
 // Of the labels that a knee or elbow moves, on average: right at most 0.05.
 constexpr double kFarBelow = 0.08;  // [m]
-// Of what changes by skin and breath, right recordings at most 0.009.
-constexpr Limit kSlip = {0.02, kNever};
+// Of what changes by skin, right recordings at most 0.007.
+constexpr Limit kSlip = {0.015, kNever};
 
 void JudgeJoints(const std::vector<JointAtLimit>& joints, bool is_calibrated,
                  VerdictReasons* reasons) {
@@ -91,10 +91,10 @@ void JudgeSlips(const std::optional<SlippedMarkers>& slipped, VerdictReasons* re
   if (!slipped) return;
   reasons->AddBeyond(
       kSlip, slipped->distance,
-      fmt::format("one of {} seems to slip by {:.0f} mm at about {:.1f} s: angles before and "
-                  "after do not belong together",
-                  fmt::join(slipped->labels, ", "), kMillimetres * slipped->distance,
-                  slipped->time));
+      fmt::format(
+          "one of {} seems to slip by {:.0f} mm or more at about {:.1f} s: angles before and "
+          "after do not belong together",
+          fmt::join(slipped->labels, ", "), kMillimetres * slipped->distance, slipped->time));
 }
 
 void JudgeLimbPlaces(const std::vector<LimbPlace>& places, VerdictReasons* reasons) {

@@ -2,6 +2,8 @@
 #include "common/study/slipped_markers.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cstddef>
 #include <optional>
@@ -47,9 +49,17 @@ Shapes ShapesOf(const MarkerSequence& recording, const std::vector<int>& labels)
   return shapes;
 }
 
-/// How far one of four moved where a rigid fit leaves these changes of their places: of one that
-/// leaves their plane it leaves half.
-double DistanceOfOne(const Matrix3Xd& changes) { return 2 * changes.norm(); }
+/// How much of a step out of their plane by one of four markers, the one of which it is most, a
+/// rigid fit leaves: it follows by all steps that a plane can make.
+double LeftOfStep(const Matrix3Xd& shape) {
+  const Matrix3Xd centred = shape.colwise() - shape.rowwise().mean();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> axes(centred, Eigen::ComputeThinU);
+  Eigen::MatrixXd planes(3, shape.cols());
+  planes << Eigen::RowVectorXd::Ones(shape.cols()),
+      axes.matrixU().leftCols<2>().transpose() * centred;
+  const Eigen::VectorXd left = planes.fullPivLu().kernel().col(0).normalized();
+  return left.cwiseAbs().maxCoeff();
+}
 
 std::vector<int> LabelsOfIliacSpines(const TrackingSetup& setup) {
   std::vector<int> labels;
@@ -72,10 +82,11 @@ std::optional<SlippedMarkers> FindSlippedPelvis(const TrackingSetup& setup,
   std::vector<Matrix3Xd> sums(1, Matrix3Xd::Zero(3, kSpines));
   for (const Matrix3Xd& one : shapes.places) sums.emplace_back(sums.back() + one);
   SlippedMarkers most;
+  const double left = count == 0 ? 1 : LeftOfStep(shapes.places.front());
   for (int at = 1; at < count; ++at) {
     if (time(at - 1) - time(0) < kSlipWindow || time(count - 1) - time(at) < kSlipWindow) continue;
     const Matrix3Xd changes = (sums[count] - sums[at]) / (count - at) - sums[at] / at;
-    const double distance = DistanceOfOne(changes);
+    const double distance = changes.norm() / left;
     if (distance <= most.distance) continue;
     most.distance = distance;
     most.time = time(at);

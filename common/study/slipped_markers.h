@@ -14,7 +14,7 @@ namespace mmm_converter {
 struct SlippedMarkers {
   std::vector<std::string> labels;
   double time = 0;      ///< about when [s]
-  double distance = 0;  ///< by which one moved, if one alone did [m]
+  double distance = 0;  ///< by which one moved at least, if one alone did [m]
 };
 
 inline constexpr double kSlipWindow = 1;  ///< [s], which a stride takes
