@@ -248,11 +248,11 @@ std::vector<Row> RowsOf(const KinematicModel& model, const std::vector<JointFram
 class ErrorsOfModel {
  public:
   ErrorsOfModel(const KinematicModel& model, const PoseTrajectory& motion) : motion_(motion) {
-    of_motion_.assign(static_cast<std::size_t>(6 + model.num_joints()), -1);
+    of_motion_.assign(6 + static_cast<std::size_t>(model.num_joints()), -1);
     for (int i = 0; i < 6; ++i) of_motion_[static_cast<std::size_t>(i)] = i;
     for (std::size_t i = 0; i < motion.joint_names.size(); ++i) {
       const int joint = model.FindJoint(motion.joint_names[i]);
-      if (joint >= 0) of_motion_[static_cast<std::size_t>(6 + joint)] = 6 + static_cast<int>(i);
+      if (joint >= 0) of_motion_[6 + static_cast<std::size_t>(joint)] = 6 + static_cast<int>(i);
     }
   }
 

@@ -56,8 +56,8 @@ Eigen::Isometry3d PlaceFoot(const ScaledFoot& of, const RobotBody& body, std::si
 
 /// How closely feet are followed.
 struct FootDeviations {
-  double stance_place, stance_turn, swing_place, swing_turn;  ///< [m], [rad]
-  double leaning = 0.1;                                       ///< of a foot that no joint rolls
+  double stance_place = 0, stance_turn = 0, swing_place = 0, swing_turn = 0;  ///< [m], [rad]
+  double leaning = 0.1;  ///< of a foot that no joint rolls
 };
 FootDeviations Weighed(const FootDeviations& deviations, double weight);
 

@@ -450,6 +450,7 @@ class BodyFinder {
 std::vector<int> SpreadFrames(int num_frames, int most) {
   const int count = std::min(num_frames, most);
   std::vector<int> frames;
+  frames.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
     frames.push_back(static_cast<int>(static_cast<long>(i) * num_frames / count));
   }

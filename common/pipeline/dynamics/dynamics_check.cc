@@ -58,9 +58,9 @@ DynamicsReport CheckDynamics(CheckedMotion motion, const DynamicsOptions& option
   Contacts feet;  // none: the model has no feet that are known
   ContactFinder by_plates;
   if (forces) {
-    by_plates = [&](const FootMotion& moved) -> FootContacts {
+    by_plates = [&](const FootMotion& moved) {
       feet = FindContacts(moved, *forces);
-      return feet;
+      return static_cast<const FootContacts&>(feet);
     };
   }
   MotionDynamics dynamics =

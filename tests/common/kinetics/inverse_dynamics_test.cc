@@ -127,9 +127,8 @@ double Energy(const KinematicModel& model, const Posture& at, const VectorXd& ve
   for (std::size_t i = 0; i < X.size(); ++i) {
     const Segment& one = model.segments()[i];
     const Vector3d v = (X1[i] * one.p_SB - X0[i] * one.p_SB) / (2 * kStep);
-    const Vector3d w = Log(Eigen::Quaterniond(X0[i].linear().transpose() * X1[i].linear())) /
-                       (2 * kStep);  // near enough the body's axes
-    const Vector3d w_S = w;
+    const Vector3d w_S = Log(Eigen::Quaterniond(X0[i].linear().transpose() * X1[i].linear())) /
+                         (2 * kStep);  // near enough the body's axes
     energy += 0.5 * one.mass * v.squaredNorm() + 0.5 * w_S.dot(one.inertia * w_S) +
               kG * one.mass * (X[i] * one.p_SB).z();
   }

@@ -74,7 +74,8 @@ PoseTrajectory Shuffle(const KinematicModel& person, double step, double lift) {
       const double part = std::max(0, shifted % 100 - 60) / 40.0;
       const double swing = part * part * part * (10 - 15 * part + 6 * part * part);
       const double middle = step * (0.3 - 0.5 * i);  // of a stance, under the hips
-      const double ahead = step * (shifted / 100 + swing) + middle - posture.position.y();
+      const int strides = shifted / 100;
+      const double ahead = step * (strides + swing) + middle - posture.position.y();
       const double lifted = lift * std::pow(std::sin(std::numbers::pi * part), 2);
       const double below = thigh + shank - kLower - lifted;
       const double way = std::hypot(ahead, below);

@@ -23,7 +23,6 @@ namespace mmm_converter {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using testing::SharedData;
 using testing::TestFolder;
@@ -346,6 +345,7 @@ TEST(RobotExportsReal, IsaacsOrderOfG1) {
     const auto depth = MakeRobotMotion(robot, motion, {}, RobotOrder::kDepthFirst).joints;
     const auto breadth = MakeRobotMotion(robot, motion, {}, RobotOrder::kBreadthFirst).joints;
     std::vector<std::ptrdiff_t> order;
+    order.reserve(breadth.size());
     for (const std::string& joint : breadth) {
       order.push_back(std::find(depth.begin(), depth.end(), joint) - depth.begin());
     }

@@ -54,7 +54,7 @@ PoseTrajectory Standing(int frames) {
 }
 
 std::string FileOf(const std::string& text) {
-  const std::string file = testing::TestFolder() + "/walk.bvh";
+  std::string file = testing::TestFolder() + "/walk.bvh";
   std::ofstream(file, std::ios::binary) << text;
   return file;
 }
