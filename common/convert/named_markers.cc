@@ -13,6 +13,8 @@
 namespace mmm_converter {
 namespace {
 
+constexpr std::size_t kMostWorn = 500;  // clusters of all limbs have some 150
+
 /// Of each coordinate of a place of the model from where the marker is worn [m]: noise scale 1.
 constexpr double kModelDeviation = 0.028;
 constexpr double kLeastNoiseScale = 0.3;  ///< skin moves by as much as the best places are known to
@@ -109,6 +111,10 @@ NamedMarkers ComposeNamedMarkers(const std::vector<std::string>& labels,
     one.part = WithSide(landmark.part, reading.side);
     one.is_cluster = landmark.kind == LandmarkKind::kSegment;
     if (!one.note.empty()) continue;
+    if (named.set.pairs.size() >= kMostWorn) {
+      one.note = "a person wears fewer markers";
+      continue;
+    }
     one.lacks_side = landmark.is_sided && reading.side == BodySide::kNone;
     const auto place = one.lacks_side ? std::nullopt : PlaceOf(reading, table, model);
     if (!place || !taken.insert("label " + NormalizeLabel(one.label)).second) {

@@ -184,5 +184,14 @@ TEST_F(LandmarkBodyTest, JoinedSubjectsAreTheOneUponTheOther) {
   EXPECT_TRUE(MarkerPositions(in_turn, zero).isApprox(MarkerPositions(joined, zero), 1e-12));
 }
 
+TEST_F(LandmarkBodyTest, APersonWearsABoundedNumberOfMarkers) {
+  MarkerLabels many;
+  for (int i = 0; i < 3000; ++i) many.names.push_back("LeftHand" + std::to_string(i));
+  const NamedMarkers named = ComposeNamedMarkers(many, reference_, table_);
+  EXPECT_EQ(named.labels.size(), 3000);
+  EXPECT_LE(named.set.pairs.size(), 500);
+  EXPECT_EQ(named.labels.back().note, "a person wears fewer markers");
+}
+
 }  // namespace
 }  // namespace mmm_converter
