@@ -89,10 +89,11 @@ FootMotion WithBelts(FootMotion feet, const Contacts& contacts) {
   return feet;
 }
 
-/// From one place to a later one, on the belt where there is one.
-Eigen::Vector3d WayBetween(const StandingPlace& from, const StandingPlace& to,
-                           const Eigen::Vector3d& belt) {
-  return to.toe - from.toe - (to.time - from.time) * belt;
+/// From an end of a foot at one place to that of a foot at a later one, on the belt where there is
+/// one.
+Eigen::Vector3d WayBetween(Eigen::Vector3d StandingPlace::*end, const StandingPlace& from,
+                           const StandingPlace& to, const Eigen::Vector3d& belt) {
+  return to.*end - from.*end - (to.time - from.time) * belt;
 }
 
 /// The foot's last contact that began before a time, within a stride; null: not known.
@@ -117,7 +118,7 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
   const StandingPlace from = PlaceOf(contact, feet);
   const StandingPlace to = PlaceOf(next, feet);
   const Eigen::Vector3d& belt = feet.foot(stride.side).belt;
-  const Eigen::Vector3d of_foot = WayBetween(from, to, belt);
+  const Eigen::Vector3d of_foot = WayBetween(&StandingPlace::toe, from, to, belt);
   const Eigen::Vector2d way = of_foot.head<2>();
   stride.rise = of_foot.z();
   stride.length = way.norm();
@@ -138,10 +139,12 @@ Stride StrideOf(const FootContact& contact, const FootContact& next, const FootM
     const Eigen::Vector2d forward = way.normalized();
     const StandingPlace behind = PlaceOf(*before, feet);
     const Eigen::Vector3d of_belts = (belt + feet.foot(other).belt) / 2;
-    stride.step_length = WayBetween(behind, to, of_belts).head<2>().dot(forward);
-    // Between heels: toes point outwards.
-    const Eigen::Vector3d across = to.heel - behind.heel - (to.time - behind.time) * of_belts;
-    const double to_right = across.x() * forward.y() - across.y() * forward.x();
+    const Eigen::Vector2d rightward(forward.y(), -forward.x());
+    stride.step_length =
+        WayBetween(&StandingPlace::toe, behind, to, of_belts).head<2>().dot(forward);
+    // Toes point outwards.
+    const double to_right =
+        WayBetween(&StandingPlace::heel, behind, to, of_belts).head<2>().dot(rightward);
     stride.step_width = (stride.side == Side::kRight) != stride.is_backwards ? to_right : -to_right;
   }
   return stride;

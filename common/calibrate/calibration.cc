@@ -12,6 +12,7 @@
 #include "common/calibrate/calibration_frames.h"
 #include "common/calibrate/joint_doubts.h"
 #include "common/math/statistics.h"
+#include "common/model/joint_limits.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
 
@@ -233,12 +234,13 @@ std::vector<MovedMarkers> FindMoved(const KinematicModel& fitted, const std::vec
 /// places are hardly known, that knees do not tells of the places.
 KinematicModel WithFreeKnees(const KinematicModel& model) {
   constexpr double kBackwards = 15 / kDegrees;
-  ModelDescription description = DescriptionOf(model);
-  for (Segment& segment : description.segments) {
-    const bool is_knee = segment.name == "LKx_joint" || segment.name == "RKx_joint";
-    if (is_knee) segment.upper += kBackwards;
+  KinematicModel free_model = model;
+  for (const char* knee : {"LKx_joint", "RKx_joint"}) {
+    const int joint = model.FindJoint(knee);
+    if (joint < 0) continue;
+    free_model = WithUpperLimit(free_model, joint, model.joint(joint).upper + kBackwards);
   }
-  return KinematicModel(std::move(description));
+  return free_model;
 }
 
 }  // namespace

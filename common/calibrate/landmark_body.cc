@@ -81,9 +81,9 @@ class LandmarkBody {
     FindLegs();
     std::vector<int> of_feet;
     for (const BodySide side : kSides) {
-      for (const Seen& one : MarkersOfFoot(side)) of_feet.push_back(one.label);
+      for (const Seen& one : FindFootMarkers(side)) of_feet.push_back(one.label);
     }
-    ramp_ = RampOf(recording_, of_feet);
+    ramp_ = FindRamp(recording_, of_feet);
     for (const BodySide side : kSides) FindFoot(side);
     return std::move(body_);
   }
@@ -146,7 +146,7 @@ class LandmarkBody {
   };
   Limb FindLimb(BodySide side) const;
   void FindLegs();
-  std::vector<Seen> MarkersOfFoot(BodySide side) const;
+  std::vector<Seen> FindFootMarkers(BodySide side) const;
   void FindFoot(BodySide side);
   std::vector<double> HeightsOf(const std::vector<Seen>& foot) const;
 
@@ -310,7 +310,7 @@ void LandmarkBody::FindLegs() {
   }
 }
 
-std::vector<Seen> LandmarkBody::MarkersOfFoot(BodySide side) const {
+std::vector<Seen> LandmarkBody::FindFootMarkers(BodySide side) const {
   std::vector<Seen> foot;
   for (const char* name :
        {"lateral malleolus", "medial malleolus", "heel", "head of the first metatarsal",
@@ -352,7 +352,7 @@ std::vector<double> LandmarkBody::HeightsOf(const std::vector<Seen>& foot) const
 }
 
 void LandmarkBody::FindFoot(BodySide side) {
-  const std::vector<Seen> foot = MarkersOfFoot(side);
+  const std::vector<Seen> foot = FindFootMarkers(side);
   if (foot.size() < 2) return;
   const std::vector<double> heights = HeightsOf(foot);
   const auto n = static_cast<Eigen::Index>(foot.size());

@@ -170,7 +170,8 @@ JointForces ComputeJointForces(const KinematicModel& model, const PoseTrajectory
     const auto X_WS = SegmentPoses(model, posture);
     for (const int foot : feet_of_model) lowest = std::min(lowest, X_WS[foot].translation().z());
     all[k] = InverseDynamics(model, posture, smooth.velocities.col(k), smooth.accelerations.col(k),
-                             WrenchesAt(k, model, feet), kStandardGravity, &carried);
+                             WrenchesAt(k, model, feet), kStandardGravity,
+                             options.holding.empty() ? nullptr : &carried);
     for (std::size_t i = 0; i < options.holding.size(); ++i) {
       found.held[i].col(k) = carried[options.holding[i]];
     }

@@ -69,8 +69,8 @@ struct HeldAxis {
 };
 std::vector<HeldAxis> FindHeldAxes(const KinematicModel& model);
 
-/// The moments about these axes that would make their angles grow, a row for each, of the whole
-/// moment by which the knee holds each axis' shank (W).
+/// The moments about these axes that would make their angles grow [N m], a row for each. held: for
+/// each axis the whole moment by which the knee holds its shank (W) [N m], 3 x frames.
 Eigen::MatrixXd HeldMoments(const KinematicModel& model, const PoseTrajectory& motion,
                             const std::vector<HeldAxis>& axes,
                             const std::vector<Eigen::Matrix3Xd>& held);

@@ -45,7 +45,7 @@ std::vector<Eigen::Vector3d> StandingPlaces(const MarkerSequence& recording, int
 
 }  // namespace
 
-Eigen::Vector2d RampOf(const MarkerSequence& recording, const std::vector<int>& labels) {
+Eigen::Vector2d FindRamp(const MarkerSequence& recording, const std::vector<int>& labels) {
   std::vector<Eigen::Vector3d> beside;  // places of each marker from their mean
   for (const int label : labels) {
     const std::vector<Eigen::Vector3d> places = StandingPlaces(recording, label);

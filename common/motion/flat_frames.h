@@ -10,7 +10,7 @@ namespace mmm_converter {
 
 /// The slope of the ramp on which feet stand by these columns of their markers, by which heights
 /// grow with x and y; zero: they stand on one level, on stairs, or not often enough to tell.
-Eigen::Vector2d RampOf(const MarkerSequence& recording, const std::vector<int>& labels);
+Eigen::Vector2d FindRamp(const MarkerSequence& recording, const std::vector<int>& labels);
 
 /// Frames in which a foot lies flat by these columns of its markers: each is near the lowest place
 /// above the ramp that it has in the recording, z up, and hardly moves upwards or downwards.

@@ -133,7 +133,7 @@ std::vector<FlatSole> MeasureSoles(const TrackingSetup& setup, const MarkerSeque
     if (foot < 0 || front < 0 || shank_end < 0) continue;
     const std::vector<int> labels = LabelsOfFoot(setup, shank_end, foot, front);
     std::vector<double> slopes;
-    const Eigen::Vector2d ramp = RampOf(recording, labels);
+    const Eigen::Vector2d ramp = FindRamp(recording, labels);
     const Eigen::Vector3d up = Eigen::Vector3d(-ramp.x(), -ramp.y(), 1).normalized();
     for (const int k : FlatFrames(recording, labels, ramp)) {
       if (k >= trajectory.num_frames()) break;

@@ -6,6 +6,7 @@
 
 #include "common/fit/posture_fit.h"
 #include "common/math/statistics.h"
+#include "common/model/joint_limits.h"
 #include "common/model/marker_kinematics.h"
 #include "common/support/units.h"
 
@@ -14,14 +15,6 @@ namespace {
 
 constexpr double kFurtherBack = 30 / kDegrees;
 constexpr std::size_t kFittedFrames = 40;
-
-KinematicModel WithUpperLimit(const KinematicModel& model, int joint, double upper) {
-  ModelDescription description = DescriptionOf(model);
-  for (Segment& segment : description.segments) {
-    if (segment.joint == joint) segment.upper = upper;
-  }
-  return KinematicModel(std::move(description));
-}
 
 }  // namespace
 

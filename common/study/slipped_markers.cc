@@ -51,7 +51,7 @@ Shapes ShapesOf(const MarkerSequence& recording, const std::vector<int>& labels)
 
 /// How much of a step out of their plane by one of four markers, the one of which it is most, a
 /// rigid fit leaves: it follows by all steps that a plane can make.
-double LeftOfStep(const Matrix3Xd& shape) {
+double ShareThatFitLeaves(const Matrix3Xd& shape) {
   const Matrix3Xd centred = shape.colwise() - shape.rowwise().mean();
   const Eigen::JacobiSVD<Eigen::MatrixXd> axes(centred, Eigen::ComputeThinU);
   Eigen::MatrixXd planes(3, shape.cols());
@@ -61,7 +61,7 @@ double LeftOfStep(const Matrix3Xd& shape) {
   return left.cwiseAbs().maxCoeff();
 }
 
-std::vector<int> LabelsOfIliacSpines(const TrackingSetup& setup) {
+std::vector<int> FindIliacSpines(const TrackingSetup& setup) {
   std::vector<int> labels;
   for (const MarkerAssignment& one : setup.assignments()) {
     const std::string& name = setup.model->markers()[one.marker].name;
@@ -74,7 +74,7 @@ std::vector<int> LabelsOfIliacSpines(const TrackingSetup& setup) {
 
 std::optional<SlippedMarkers> FindSlippedPelvis(const TrackingSetup& setup,
                                                 const MarkerSequence& recording) {
-  const std::vector<int> labels = LabelsOfIliacSpines(setup);
+  const std::vector<int> labels = FindIliacSpines(setup);
   if (labels.size() != kSpines) return {};
   const Shapes shapes = ShapesOf(recording, labels);
   const auto count = static_cast<int>(shapes.frames.size());
@@ -82,7 +82,7 @@ std::optional<SlippedMarkers> FindSlippedPelvis(const TrackingSetup& setup,
   std::vector<Matrix3Xd> sums(1, Matrix3Xd::Zero(3, kSpines));
   for (const Matrix3Xd& one : shapes.places) sums.emplace_back(sums.back() + one);
   SlippedMarkers most;
-  const double left = count == 0 ? 1 : LeftOfStep(shapes.places.front());
+  const double left = count == 0 ? 1 : ShareThatFitLeaves(shapes.places.front());
   for (int at = 1; at < count; ++at) {
     if (time(at - 1) - time(0) < kSlipWindow || time(count - 1) - time(at) < kSlipWindow) continue;
     const Matrix3Xd changes = (sums[count] - sums[at]) / (count - at) - sums[at] / at;

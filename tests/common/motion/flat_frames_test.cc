@@ -43,12 +43,12 @@ MarkerSequence Steps(double slope, double unevenness) {
 
 TEST(FlatFramesTest, ARampIsFoundByWhereFeetStand) {
   constexpr double kTenDegrees = 0.1763;
-  const Eigen::Vector2d ramp = RampOf(Steps(kTenDegrees, 0), {0, 1});
+  const Eigen::Vector2d ramp = FindRamp(Steps(kTenDegrees, 0), {0, 1});
   EXPECT_NEAR((ramp - Eigen::Vector2d(0, kTenDegrees)).norm(), 0, 1e-9);
-  EXPECT_EQ(RampOf(Steps(0, 0), {0, 1}).norm(), 0);
-  EXPECT_EQ(RampOf(Steps(0, 0.1), {0, 1}).norm(), 0);  // now on a kerb, now beside it
-  EXPECT_EQ(RampOf(Steps(0.6, 0), {0, 1}).norm(), 0);  // stairs
-  EXPECT_EQ(RampOf(Steps(kTenDegrees, 0), {}).norm(), 0);
+  EXPECT_EQ(FindRamp(Steps(0, 0), {0, 1}).norm(), 0);
+  EXPECT_EQ(FindRamp(Steps(0, 0.1), {0, 1}).norm(), 0);  // now on a kerb, now beside it
+  EXPECT_EQ(FindRamp(Steps(0.6, 0), {0, 1}).norm(), 0);  // stairs
+  EXPECT_EQ(FindRamp(Steps(kTenDegrees, 0), {}).norm(), 0);
   // All four stances are flat on the ramp; without it the lowest alone is.
   EXPECT_GT(FlatFrames(Steps(kTenDegrees, 0), {0, 1}, ramp).back(), 150);
   EXPECT_LT(FlatFrames(Steps(kTenDegrees, 0), {0, 1}).back(), 50);
