@@ -101,8 +101,8 @@ TEST(BatchSurvival, ResumeGoesOnAfterARecordingThatEndsTheProcess) {
   for (const auto& [fault, ending] : endings) {
     SCOPED_TRACE(fault);
     const std::map<std::string, std::string> environment = {{"MMM_CONVERTER_TEST_FAULT", fault}};
-    const auto words = [&](const std::string& more) {
-      std::vector<std::string> all = Words(manifest, SurvivalOut(fault));
+    const auto words = [&, out = SurvivalOut(fault)](const std::string& more) {
+      std::vector<std::string> all = Words(manifest, out);
       if (!more.empty()) all.push_back(more);
       return all;
     };

@@ -61,7 +61,7 @@ TEST(Batch, WithoutStreamsTheJournalHasRecordsOnly) {
   std::ifstream journal(Out() + "/journal.jsonl");
   int records = 0;
   for (std::string line; std::getline(journal, line); ++records) {
-    EXPECT_NO_THROW(Json::parse(line)) << line;
+    EXPECT_TRUE(Json::accept(line)) << line;
   }
   EXPECT_EQ(records, 2);
 }

@@ -68,18 +68,18 @@ TEST(Skeleton, MotionsOfSmplHaveTheSameLimbs) {
   const std::pair<const char*, const char*> kBones[] = {
       {"LHx_joint", "LKx_joint"}, {"RKx_joint", "RAx_joint"}, {"LSx_joint", "LEx_joint"},
       {"RSx_joint", "REx_joint"}, {"LEx_joint", "LWx_joint"}, {"REx_joint", "RWx_joint"}};
-  for (const auto& [upper, lower] : kBones) {
+  for (const auto& ends : kBones) {
     double sum = 0;
     for (int k = 0; k < before.num_frames(); ++k) {
       const auto bone = [&](const PoseTrajectory& motion) {
         const auto X = SegmentPoses(model, ModelPosture(model, motion, k));
-        return (X[model.FindSegment(lower)].translation() -
-                X[model.FindSegment(upper)].translation())
+        return (X[model.FindSegment(ends.second)].translation() -
+                X[model.FindSegment(ends.first)].translation())
             .normalized();
       };
       sum += std::acos(std::min(1.0, bone(before).dot(bone(after))));
     }
-    EXPECT_LT(sum / before.num_frames(), 2 / kDegrees) << lower;
+    EXPECT_LT(sum / before.num_frames(), 2 / kDegrees) << ends.second;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "MMMConverterS2KF/report/packed_array.h"
+#include "common/kinetics/inverse_dynamics.h"
 #include "common/support/units.h"
 
 namespace mmm_converter::testing {

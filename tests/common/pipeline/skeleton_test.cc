@@ -57,12 +57,12 @@ double LimbError(const KinematicModel& person, const PoseTrajectory& truth,
     const auto X = SegmentPoses(person, ModelPosture(person, truth, k));
     const auto Y = SegmentPoses(model, ModelPosture(model, report.result.trajectory, k));
     for (const std::string side : {"L", "R"}) {
-      for (const auto& [from, to] : kLimbs) {
+      for (const auto& limb : kLimbs) {
         const auto along = [&](const KinematicModel& of, const auto& poses) {
           const auto at = [&](const char* name) {
             return poses[static_cast<std::size_t>(of.FindSegment(side + name))].translation();
           };
-          return Eigen::Vector3d((at(to) - at(from)).normalized());
+          return Eigen::Vector3d((at(limb.second) - at(limb.first)).normalized());
         };
         sum += std::acos(std::clamp(along(person, X).dot(along(model, Y)), -1.0, 1.0));
         ++count;

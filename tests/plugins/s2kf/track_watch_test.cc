@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The watch by itself: distances and gaps in, doubt out.
 #include "plugins/s2kf/track_watch.h"
-#include "common/support/units.h"
 
 #include <gtest/gtest.h>
+
+#include "common/support/units.h"
+#include "plugins/s2kf/s2kf_settings.h"
 
 namespace mmm_converter::s2kf {
 namespace {

@@ -177,8 +177,8 @@ TEST(LabelReadings, TermsOfIsb) {
   for (const auto& [labels, side] :
        {std::pair(terms, ""), std::pair(small, ""), std::pair(sided, "right ")}) {
     const auto meanings = Meanings(labels);
-    const auto has = [&](std::size_t i, const std::string& what, bool is_sided) {
-      EXPECT_EQ(meanings[i], (is_sided ? side : "") + what) << labels[i];
+    const auto has = [&, of_side = side](std::size_t i, const std::string& what, bool is_sided) {
+      EXPECT_EQ(meanings[i], (is_sided ? of_side : "") + what);
     };
     has(0, "notch above the sternum", false);
     has(1, "lower end of the sternum", false);

@@ -90,8 +90,8 @@ TEST(MvnPacket, NameSizeAnglesAndTime) {
 }
 
 // Indices from 0.
-constexpr int kPelvis = 0, kHead = 6, kRightUpperArm = 8, kLeftUpperArm = 12, kLeftHand = 14,
-              kRightUpperLeg = 15, kLeftUpperLeg = 19;
+constexpr int kPelvis = 0, kHead = 6, kRightUpperArm = 8, kLeftUpperArm = 12, kRightUpperLeg = 15,
+              kLeftUpperLeg = 19;
 
 TEST(MvnBody, AxesAreForwardLeftUpWhereSomebodyStands) {
   const KinematicModel model = testing::ScaledReferenceModel(1.8);
