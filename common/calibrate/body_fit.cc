@@ -99,6 +99,21 @@ VectorXd SkinDeviationsOf(const CalibrationOptions& options, const VectorXd& noi
   return VectorXd::Constant(noise_scale.size(), options.skin_deviation);
 }
 
+/// What is known of the mean posture, as FrameEquations::DrawTo takes it.
+VectorXd PostureInformation(const BodyKinematics& kinematics, const CalibrationOptions& options) {
+  // Hips' and other limbs' own rotation differs most between sessions (McGinley et al. 2009).
+  constexpr double kOfRotation = 2;
+  constexpr double kAlongLimb = 0.9;  // the cosine
+  const std::vector<int>& joints = kinematics.joints();
+  VectorXd deviations = VectorXd::Constant(3 + static_cast<Eigen::Index>(joints.size()),
+                                           options.mean_posture_deviation);
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const bool is_rotation = std::abs(kinematics.model().joint(joints[j]).axis.z()) > kAlongLimb;
+    if (is_rotation) deviations[static_cast<Eigen::Index>(3 + j)] *= kOfRotation;
+  }
+  return deviations.cwiseAbs2().cwiseInverse();
+}
+
 class BodyFit {
  public:
   BodyFit(BodyKinematics* kinematics, const CalibrationOptions& options,
@@ -122,6 +137,11 @@ class BodyFit {
     for (std::size_t k = 0; k < frames->size(); ++k) {
       equations_.emplace_back(*kinematics, (*frames)[k].z, SkinDeviationsOf(options, noise_scale),
                               shares[static_cast<Eigen::Index>(k)]);
+    }
+    if (options.mean_posture_deviation <= 0) return;
+    const VectorXd information = PostureInformation(*kinematics, options) / shares.sum();
+    for (std::size_t k = 0; k < frames->size(); ++k) {
+      equations_[k].DrawTo((*frames)[k].by_places, information);
     }
   }
 
@@ -221,6 +241,8 @@ double BodyFit::TryStep(double damping) {
 }
 
 Body BodyFit::Deviations(BodyFitResult* result) {
+  // What places tell of postures they tell of the body already.
+  for (FrameEquations& frame : equations_) frame.DrawTo({}, {});
   Linearize();
   Reduce(0);
   const MatrixXd H = reduced_.H.view().selfadjointView<Eigen::Lower>();

@@ -272,7 +272,10 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
   std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   const VectorXd noise_scales = NoiseScales(recordings, markers);
   // The median offsets of a posture that is not known are no better start than known places.
-  if (options.places_by_noise) body.offsets.setZero();
+  if (options.places_by_noise) {
+    body.offsets.setZero();
+    FitPosturesByPlaces(model, joints, markers, noise_scales, &chosen);
+  }
   const BodyFitResult fit = FitBody(kinematics, options, noise_scales, &chosen, &body);
 
   result.subject =

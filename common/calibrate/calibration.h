@@ -38,6 +38,9 @@ struct CalibrationOptions {
   /// A marker's place is known by marker_deviation times its noise scale, as landmarks are; else
   /// all are known alike, and noise scales are of the skin.
   bool places_by_noise = false;
+  /// Of the mean over the frames of each angle from what known places alone tell [rad]; 0: they
+  /// tell no more than each by itself.
+  double mean_posture_deviation = 0;
   /// Is called often while it is computed; what it throws ends the estimate. May be empty.
   std::function<void()> between_steps = {};
 };

@@ -143,6 +143,19 @@ VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints
   return distance;
 }
 
+void FitPosturesByPlaces(const KinematicModel& model, const std::vector<int>& joints,
+                         const std::vector<MarkerIx>& markers, const VectorXd& noise_scale,
+                         std::vector<CalibrationFrame>* frames) {
+  const MarkerKinematics kinematics(model, joints, markers);
+  PostureFitOptions options;
+  options.robust_distance = kRobustDistance;
+  PostureFit fit(kinematics);
+  for (CalibrationFrame& frame : *frames) {
+    frame.by_places = frame.posture;
+    fit.Solve(frame.z, noise_scale, options, &frame.by_places);
+  }
+}
+
 Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,
                           const std::vector<MarkerIx>& markers,
                           const std::vector<CalibrationFrame>& frames) {

@@ -18,6 +18,7 @@ struct CalibrationFrame {
   double time = 0;     ///< from the recording's first frame [s]
   Eigen::Matrix3Xd z;  ///< 3 x used markers [m]; NaN: not seen
   Posture posture;     ///< tracked joints
+  Posture by_places;   ///< the same where the markers are where the model has them; may be empty
 };
 
 /// The used markers of all recordings, indices of the model, ascending.
@@ -33,6 +34,11 @@ Eigen::VectorXd FitPostures(const KinematicModel& model, const std::vector<int>&
                             const std::vector<MarkerIx>& markers,
                             std::vector<CalibrationFrame>* frames,
                             const std::function<void()>& between_steps = {});
+
+/// Sets the frames' by_places, from their postures. noise_scale: how well each place is known.
+void FitPosturesByPlaces(const KinematicModel& model, const std::vector<int>& joints,
+                         const std::vector<MarkerIx>& markers, const Eigen::VectorXd& noise_scale,
+                         std::vector<CalibrationFrame>* frames);
 
 /// How far each marker is from where the model's segment has it, the median of the frames by axis,
 /// 3 x markers [m], segment axes; 0 where it was not seen.

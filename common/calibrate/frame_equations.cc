@@ -66,6 +66,11 @@ FrameEquations::FrameEquations(const BodyKinematics& kinematics, Eigen::Matrix3X
   step_.setZero(n);
 }
 
+void FrameEquations::DrawTo(const Posture& known, VectorXd information) {
+  known_ = known;
+  information_ = std::move(information);
+}
+
 double FrameEquations::Cost(const BodyKinematics& kinematics, const Posture& posture) {
   kinematics.kinematics().ComputeMarkers(posture.position, posture.orientation.toRotationMatrix(),
                                          posture.joint_angles, &at_.posture);
@@ -79,6 +84,10 @@ double FrameEquations::Cost(const BodyKinematics& kinematics, const Posture& pos
     weights_[m] = share_ * CauchyWeight(square, kSkinScale) / variance;
   }
   cost += (posture.joint_angles - natural_).squaredNorm() / (kNaturalDeviation * kNaturalDeviation);
+  if (information_.size() > 0) {
+    const VectorXd d = Local(posture, known_).tail(information_.size());
+    cost += d.dot(information_.cwiseProduct(d));
+  }
   return share_ * cost;
 }
 
@@ -121,6 +130,11 @@ void FrameEquations::Linearize(const BodyKinematics& kinematics, const Posture& 
   const double pull = share_ / (kNaturalDeviation * kNaturalDeviation);
   H_.view().diagonal().tail(joints).array() += pull;
   g_.tail(joints) += pull * (natural_ - posture.joint_angles);
+  if (information_.size() > 0) {
+    const Eigen::Index angles = information_.size();
+    H_.view().diagonal().tail(angles) += share_ * information_;
+    g_.tail(angles) += share_ * information_.cwiseProduct(Local(posture, known_).tail(angles));
+  }
   for (Eigen::Index j = 0; j < joints; ++j) {
     const double angle = posture.joint_angles[j];
     held_[j] = (angle <= lower_[j] + kOnLimit && g_[6 + j] < 0) ||

@@ -32,6 +32,10 @@ class FrameEquations {
   FrameEquations(const BodyKinematics& kinematics, Eigen::Matrix3Xd z, Eigen::VectorXd deviation,
                  double share);
 
+  /// Draws the posture to one that is known. information: about its [rotation (body) 3; joint
+  /// angles] [1/rad^2]; empty: draws no longer.
+  void DrawTo(const Posture& known, Eigen::VectorXd information);
+
   /// `share` of -log of the likelihood of z at a posture, and of the posture, where marker
   /// distances are distributed as in FitBody. Keeps what Linearize needs.
   double Cost(const BodyKinematics& kinematics, const Posture& posture);
@@ -58,6 +62,8 @@ class FrameEquations {
   double share_;
   Eigen::VectorXd weights_;  // of each marker in the squares, 0 where not seen
   Eigen::VectorXd natural_;  // of the tracked joints [rad]
+  Posture known_;
+  Eigen::VectorXd information_;  // about it
   Eigen::VectorXd lower_;
   Eigen::VectorXd upper_;
   PaddedMatrix H_;

@@ -79,12 +79,7 @@ class LandmarkBody {
   Subject Find() {
     FindPelvis();
     FindLegs();
-    std::vector<int> of_feet;
-    for (const BodySide side : kSides) {
-      for (const Seen& one : FindFootMarkers(side)) of_feet.push_back(one.label);
-    }
-    ramp_ = FindRamp(recording_, of_feet);
-    for (const BodySide side : kSides) FindFoot(side);
+    FindFeet();
     return std::move(body_);
   }
 
@@ -146,9 +141,15 @@ class LandmarkBody {
   };
   Limb FindLimb(BodySide side) const;
   void FindLegs();
+  struct Foot {
+    std::vector<Seen> markers;
+    std::vector<double> heights;  // above the first where the foot is flat; empty: not known
+    double heel_up = 0;           // slope of the markers against the model's, where they are lowest
+  };
   std::vector<Seen> FindFootMarkers(BodySide side) const;
-  void FindFoot(BodySide side);
-  std::vector<double> HeightsOf(const std::vector<Seen>& foot) const;
+  void MeasureHeights(Foot* foot) const;
+  void FindFeet();
+  void PlaceOnFoot(const Foot& foot);
 
   double LengthOf(const std::string& segment) const {
     const int index = model_.FindSegment(segment);
@@ -320,41 +321,57 @@ std::vector<Seen> LandmarkBody::FindFootMarkers(BodySide side) const {
   return foot;
 }
 
-/// Of each marker against the first, square to the ground, where the foot is flat; empty: it never
-/// is.
-std::vector<double> LandmarkBody::HeightsOf(const std::vector<Seen>& foot) const {
+void LandmarkBody::MeasureHeights(Foot* foot) const {
+  const std::vector<Seen>& markers = foot->markers;
   std::vector<int> labels;
-  labels.reserve(foot.size());
-  for (const Seen& one : foot) labels.push_back(one.label);
-  std::vector<std::vector<double>> above(foot.size());
+  labels.reserve(markers.size());
+  for (const Seen& one : markers) labels.push_back(one.label);
+  std::vector<std::vector<double>> above(markers.size());
   const Vector3d up = Vector3d(-ramp_.x(), -ramp_.y(), 1).normalized();
   for (const int k : FlatFrames(recording_, labels, ramp_)) {
-    for (std::size_t i = 0; i < foot.size(); ++i) {
-      above[i].push_back(up.dot(At(k, foot[i]) - At(k, foot[0])));
+    for (std::size_t i = 0; i < markers.size(); ++i) {
+      above[i].push_back(up.dot(At(k, markers[i]) - At(k, markers[0])));
     }
   }
+  if (above.empty() || above[0].size() < kFewestFlat) return;
   std::vector<double> heights;
+  bool are_of_foot = true;
   double moment = 0, square = 0;  // of the line through how much higher markers are
-  for (std::size_t i = 0; i < foot.size(); ++i) {
-    if (above[i].size() < kFewestFlat) return {};
+  for (std::size_t i = 0; i < markers.size(); ++i) {
     heights.push_back(Median(above[i]));
+    const Vector3d of_model = AtRest(markers[i]) - AtRest(markers[0]);
+    const double higher = heights[i] - of_model.z();
     // On stairs the lowest places of a foot's markers are of different steps.
-    const double of_model = AtRest(foot[i]).z() - AtRest(foot[0]).z();
-    const double higher = heights[i] - of_model;
-    const bool is_front = AtRest(foot[i]).y() - AtRest(foot[0]).y() > kInFront;
-    if (higher < -kMostTilt || higher > (is_front ? kHighestInstep : kMostTilt)) return {};
-    const double ahead = AtRest(foot[i]).y() - AtRest(foot[0]).y();
-    moment += ahead * higher;
-    square += ahead * ahead;
+    const double highest = of_model.y() > kInFront ? kHighestInstep : kMostTilt;
+    are_of_foot = are_of_foot && higher >= -kMostTilt && higher <= highest;
+    moment += of_model.y() * higher;
+    square += of_model.y() * of_model.y();
   }
-  // Who walks on toes never has the heel on the floor.
-  return moment < -kMostHeelUp * square ? std::vector<double>() : heights;
+  if (square > 0) foot->heel_up = -moment / square;
+  if (are_of_foot) foot->heights = std::move(heights);
 }
 
-void LandmarkBody::FindFoot(BodySide side) {
-  const std::vector<Seen> foot = FindFootMarkers(side);
+void LandmarkBody::FindFeet() {
+  Foot feet[2];
+  std::vector<int> labels;
+  for (int s = 0; s < 2; ++s) {
+    feet[s].markers = FindFootMarkers(kSides[s]);
+    for (const Seen& one : feet[s].markers) labels.push_back(one.label);
+  }
+  ramp_ = FindRamp(recording_, labels);
+  for (Foot& foot : feet) MeasureHeights(&foot);
+  for (int s = 0; s < 2; ++s) {
+    // Who walks on toes never has the heel on the floor, most of them on neither side.
+    const bool is_other_up = feet[1 - s].heel_up > kMostHeelUp;
+    if (feet[s].heel_up > (is_other_up ? kMostHeelUp / 2 : kMostHeelUp)) feet[s].heights.clear();
+    PlaceOnFoot(feet[s]);
+  }
+}
+
+void LandmarkBody::PlaceOnFoot(const Foot& measured) {
+  const std::vector<Seen>& foot = measured.markers;
   if (foot.size() < 2) return;
-  const std::vector<double> heights = HeightsOf(foot);
+  const std::vector<double>& heights = measured.heights;
   const auto n = static_cast<Eigen::Index>(foot.size());
   Eigen::Matrix3Xd rest(3, n);
   for (Eigen::Index i = 0; i < n; ++i) rest.col(i) = AtRest(foot[static_cast<std::size_t>(i)]);

@@ -29,6 +29,12 @@ constexpr double kSameHeight = 0.02;  // [m] who is measured twice
 // Of places that distances and heights told to some 4 mm, where the model's are off by 28 mm.
 constexpr double kToldNoiseScale = 0.15;
 
+// Skin over thighs and shanks slides by 5 to 15 mm in walking, as one for a stride (Leardini et al.
+// 2005; Peters et al. 2010) [m].
+constexpr double kSkinOfLimbs = 0.008;
+// What palpating again changes in angles: 2 to 5 degrees (McGinley et al. 2009) [rad].
+constexpr double kMeanPostureDeviation = 3.5 / kDegrees;
+
 std::string FileName(const std::string& path) { return fs::path(path).filename().string(); }
 
 CalibrationInput ReadOne(const InputRequest& request, ConverterConfig* matched,
@@ -188,6 +194,10 @@ CalibrationResult CalibratePerson(const KinematicModel& scaled, const std::vecto
   options.between_steps = between_steps;
   options.places_by_noise = person.landmarks != nullptr;
   options.may_stand = options.places_by_noise;
+  if (options.places_by_noise) {
+    options.skin_deviation = kSkinOfLimbs;
+    options.mean_posture_deviation = kMeanPostureDeviation;
+  }
   CalibrationResult result = CalibrateSubject(
       scaled, joints, WithToldPlaces(recordings, scaled, person), options, warnings);
   result.subject.name = name;

@@ -17,7 +17,7 @@ struct SlippedMarkers {
   double distance = 0;  ///< by which one moved at least, if one alone did [m]
 };
 
-inline constexpr double kSlipWindow = 1;  ///< [s], which a stride takes
+inline constexpr double kSlipWindow = 2;  ///< [s], which two strides take
 
 /// What the shape of the four iliac spines changes most from one time to the next. Skin moves them
 /// with the gait: shapes are means over kSlipWindow or more. Nothing: not all four are there, for

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -119,6 +120,41 @@ TEST(FitBody, IsAMinimumWithJointsInsideTheirLimits) {
   const BodyFitResult again = FitBody(&kinematics, {}, ones, &frames, &body);
   EXPECT_LE(again.cost, fit.cost);
   EXPECT_LT(fit.cost - again.cost, 0.5) << "half a unit of -2 log p: the data can't tell";
+}
+
+// A constant in an angle fits as well with markers elsewhere: the mean is what places tell.
+TEST(FitBody, KeepsTheMeanPostureThatIsKnown) {
+  const KinematicModel model = testing::ScaledReferenceModel(1.7);
+  const KinematicModel person = FitToSubject(model, testing::DrawPerson(model, 5));
+  std::vector<CalibrationFrame> frames = Frames(model, person, 30);
+  BodyKinematics kinematics(model, testing::TrackedJoints(model), AllMarkers(model));
+  const Eigen::VectorXd ones =
+      Eigen::VectorXd::Ones(static_cast<Eigen::Index>(model.markers().size()));
+  const auto knee = std::distance(kinematics.joints().begin(),
+                                  std::find(kinematics.joints().begin(), kinematics.joints().end(),
+                                            model.FindJoint("LKx_joint")));
+  constexpr double kBent = 4 / kDegrees;
+  for (CalibrationFrame& frame : frames) {
+    frame.by_places = frame.posture;
+    frame.by_places.joint_angles[knee] -= kBent;
+  }
+  const auto mean_with = [&](double deviation) {
+    std::vector<CalibrationFrame> fitted = frames;
+    Body body = kinematics.ModelBody();
+    CalibrationOptions options;
+    options.mean_posture_deviation = deviation;
+    EXPECT_TRUE(FitBody(&kinematics, options, ones, &fitted, &body).converged);
+    double mean = 0;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+      mean += (fitted[k].posture.joint_angles - frames[k].by_places.joint_angles)[knee] /
+              static_cast<double>(frames.size());
+    }
+    return mean;
+  };
+  const double alone = std::abs(mean_with(0));
+  EXPECT_GT(alone, kBent / 2);
+  EXPECT_LT(std::abs(mean_with(1 / kDegrees)), alone);
+  EXPECT_LT(std::abs(mean_with(0.1 / kDegrees)), alone / 10);
 }
 
 TEST(FitBody, EndsBetweenTwoSteps) {
