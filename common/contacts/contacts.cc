@@ -21,6 +21,7 @@ struct Standing {
   bool has_begin = true, has_end = true;
   std::vector<int> plates;
   bool begins_late = false, ends_early = false;  // PlateLoad
+  double slowing = 0, speeding = 0;              // SlowFoot [s]
 };
 
 std::vector<Standing> OnPlates(Side side, const std::vector<PlateLoad>& loads,
@@ -66,7 +67,11 @@ std::vector<Standing> BySpeed(const FootMotion& motion, const std::vector<SlowFo
                          motion.time(one.end),
                          one.begin > 0,
                          one.end < motion.num_frames() - 1,
-                         {}});
+                         {},
+                         false,
+                         false,
+                         one.slowing / motion.rate,
+                         one.speeding / motion.rate});
   }
   return standings;
 }
@@ -79,6 +84,7 @@ ContactLag LagOf(std::vector<double> later, ContactLag lag) {
   double squares = 0;
   for (const double one : later) squares += (one - lag.seconds) * (one - lag.seconds);
   lag.deviation = std::sqrt(squares / static_cast<double>(later.size() - 1));
+  lag.is_measured = true;
   return lag;
 }
 
@@ -131,8 +137,8 @@ FootContact ContactOf(Side side, const Standing& standing, const Lags& lags) {
   contact.side = side;
   if (standing.has_begin) contact.begin = standing.begin;
   if (standing.has_end) contact.end = standing.end;
-  contact.begin_deviation = lags.begin.deviation;
-  contact.end_deviation = lags.end.deviation;
+  contact.begin_deviation = lags.begin.DeviationOf(standing.slowing);
+  contact.end_deviation = lags.end.DeviationOf(standing.speeding);
   contact.plates = standing.plates;
   return contact;
 }
@@ -148,11 +154,11 @@ std::vector<FootContact> Combine(Side side, const std::vector<Standing>& on_plat
       if (slow.end <= plate.begin || slow.begin >= plate.end) continue;
       if (plate.begin - slow.begin > (plate.begins_late ? 0 : kSameEvent)) {
         contact.begin = slow.has_begin ? std::optional(slow.begin) : std::nullopt;
-        contact.begin_deviation = lags.begin.deviation;
+        contact.begin_deviation = lags.begin.DeviationOf(slow.slowing);
       }
       if (slow.end - plate.end > (plate.ends_early ? 0 : kSameEvent)) {
         contact.end = slow.has_end ? std::optional(slow.end) : std::nullopt;
-        contact.end_deviation = lags.end.deviation;
+        contact.end_deviation = lags.end.DeviationOf(slow.speeding);
       }
       slow.end = slow.begin;  // is told
     }

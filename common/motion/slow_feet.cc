@@ -59,6 +59,14 @@ std::vector<SlowFoot> SlowTimes(const Eigen::VectorXd& speed, double rate, doubl
     }
   }
   if (stands) times.back().end = static_cast<double>(last);
+  for (SlowFoot& one : times) {
+    auto k = static_cast<Eigen::Index>(std::ceil(one.begin));
+    while (k < last && speed[k] > below / 2) ++k;
+    one.slowing = static_cast<double>(k) - one.begin;
+    k = static_cast<Eigen::Index>(one.end);
+    while (k > 0 && speed[k] > above / 2) --k;
+    one.speeding = one.end - static_cast<double>(k);
+  }
   std::erase_if(times,
                 [&](const SlowFoot& one) { return one.end - one.begin < kShortestContact * rate; });
   return times;
@@ -89,8 +97,8 @@ FootContacts FindSlowContacts(const FootMotion& motion) {
       if (one.end < motion.num_frames() - 1) {
         contact.end = motion.time(one.end) + kEndLag.seconds;
       }
-      contact.begin_deviation = kBeginLag.deviation;
-      contact.end_deviation = kEndLag.deviation;
+      contact.begin_deviation = kBeginLag.DeviationOf(one.slowing / motion.rate);
+      contact.end_deviation = kEndLag.DeviationOf(one.speeding / motion.rate);
     }
   }
   return found;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace mmm_converter {
 /// the recording cuts begins at 0 or ends at the number of frames less one.
 struct SlowFoot {
   double begin = 0, end = 0;
+  /// Frames that its speed takes from the first bound to half of it, and from half of the last.
+  double slowing = 0, speeding = 0;
 };
 using SlowFeet = std::array<std::vector<SlowFoot>, 2>;
 
@@ -22,9 +25,15 @@ SlowFeet FindSlowFeet(const FootMotion& motion);
 struct ContactLag {
   double seconds = 0;
   double deviation = 0;
+  bool is_measured = false;  ///< by plates that recorded this person
+
+  /// A foot whose speed changes slowly tells the event as badly, for all that others did.
+  double DeviationOf(double change_time) const {
+    return is_measured ? deviation : std::max(deviation, change_time);
+  }
 };
 // Of walks that plates recorded: how much later the load begins and ends than a foot is slow, and
-// how much that differs from event to event.
+// how much that differs at least from event to event.
 inline constexpr ContactLag kBeginLag = {0.02, 0.03};  // 29 ms rms of 36 strikes of 14 recordings
 inline constexpr ContactLag kEndLag = {0.0, 0.02};     // 19 ms rms of 34 offs
 

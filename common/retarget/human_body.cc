@@ -81,7 +81,7 @@ void FindFeet(const KinematicModel& model, const std::vector<Eigen::Isometry3d>&
     const std::string side = i == 0 ? "L" : "R";
     const auto place = [&](const std::string& name, const Eigen::Matrix3Xd& path) -> BodyPoint {
       for (const char* prefix : {"MARKER_", ""}) {
-        const int marker = model.FindMarker(prefix + side + name);
+        const int marker = model.FindMarker(std::string(prefix).append(side).append(name));
         if (marker >= 0) return {model.markers()[marker].segment, model.markers()[marker].p_SM};
       }
       return {foot, X_WS[foot].inverse() * Vector3d(path.col(0))};

@@ -193,6 +193,12 @@ TEST_F(TreadmillTest, EachBeltBearsItsFoot) {
   ExpectSteps(contacts, 0.002);
 }
 
+TEST(ContactLag, IsNoSurerThanAFootThatSlowsDownSlowlyUnlessItIsMeasured) {
+  EXPECT_EQ(kBeginLag.DeviationOf(0.01), kBeginLag.deviation);
+  EXPECT_EQ(kBeginLag.DeviationOf(0.1), 0.1);
+  EXPECT_EQ((ContactLag{0.01, 0.005, true}.DeviationOf(0.1)), 0.005);
+}
+
 TEST_F(WalkTest, WithoutPlatesFeetStandWhereTheyAreSlow) {
   const Contacts contacts = FindContacts(Walk(), {});
   EXPECT_THAT(contacts.loads, IsEmpty());

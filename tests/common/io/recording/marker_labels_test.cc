@@ -50,8 +50,8 @@ TEST(MarkerLabels, AreNumberedWhereTheyBecomeTheSame) {
 }
 
 std::vector<std::string> With(const std::string& prefix, const std::vector<std::string>& labels) {
-  std::vector<std::string> all;
-  for (const std::string& label : labels) all.push_back(prefix + ":" + label);
+  std::vector<std::string> all = labels;
+  for (std::string& label : all) label.insert(0, prefix + ":");
   return all;
 }
 
