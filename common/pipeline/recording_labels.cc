@@ -5,13 +5,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "common/convert/exchanged_sides.h"
 #include "common/convert/marker_set.h"
+#include "common/convert/named_markers.h"
+#include "common/convert/tracking_setup.h"
 #include "common/judge/label_verdict.h"
 #include "common/label/track/label_recording.h"
-#include "common/pipeline/exchanged_labels.h"
+#include "common/motion/marker_sequence.h"
 #include "common/pipeline/input/matched_labels.h"
 #include "common/pipeline/labelled_output.h"
 #include "common/pipeline/object.h"
@@ -22,9 +29,63 @@
 #include "common/support/output_plan.h"
 #include "common/support/text.h"
 #include "common/support/units.h"
+#include "common/support/warnings.h"
 
 namespace mmm_converter {
 namespace {
+
+/// The recording with left and right labels exchanged, where they are the wrong way round all along
+/// (FindExchangedSides), which a warning says: a tracker that begins with the wrong side could mend
+/// one part and not another. setup: its labels are numbers of names; stored: the recording's column
+/// that is called like each name, -1: none.
+std::optional<MarkerSequence> ExchangeSides(TrackingSetup setup, const std::vector<LabelIx>& stored,
+                                            const MarkerSequence& recording, Warnings* warnings) {
+  std::vector<MarkerAssignment>& assignments = setup.mapping.assignments;
+  for (MarkerAssignment& one : assignments) one.label = stored[one.label];
+  std::erase_if(assignments, [](const MarkerAssignment& one) { return one.label < 0; });
+  const auto sides = FindExchangedSides(setup, recording);
+  if (!sides) return std::nullopt;
+  warnings->Add(fmt::format(
+      "left and right labels of {} are exchanged, by which markers come from {:.0f} to {:.0f} mm "
+      "from the model; if it is the coordinates that are mirrored, mend these instead",
+      sides->part, kMillimetres * sides->distance, kMillimetres * sides->exchanged_distance));
+  return WithLabelsExchanged(*sides, recording);
+}
+
+/// The recording with labels whose names the body contradicts under the names of where they are, as
+/// far as these are contradicted, too: sides, pairs. A warning tells. Nothing where there are none.
+/// named: the recording's labels by their names alone; understood: as the body bears them out.
+std::optional<MarkerSequence> ExchangeNames(const NamedMarkers& named,
+                                            const NamedMarkers& understood,
+                                            const MarkerSequence& recording, Warnings* warnings) {
+  NamedMarkers exchanged;
+  std::map<int, int> name_of;  // by label, the one whose name it gets
+  for (int i = 0; i < static_cast<int>(understood.labels.size()); ++i) {
+    const NamedLabel& one = understood.labels[i];
+    if (!one.is_contradicted || one.marker.empty()) continue;
+    const auto owner =
+        std::find_if(named.labels.begin(), named.labels.end(), [&](const NamedLabel& other) {
+          return !other.marker.empty() && other.landmark == one.landmark;
+        });
+    if (owner != named.labels.end()) name_of[i] = static_cast<int>(owner - named.labels.begin());
+  }
+  // A name that its own label keeps is not free.
+  while (std::erase_if(name_of, [&](const auto& one) { return !name_of.contains(one.second); })) {
+  }
+  std::vector<std::string> labels = recording.labels();
+  for (const auto& [label, name] : name_of) {
+    labels[label] = recording.labels()[name];
+    if (label != name) exchanged.labels.push_back(understood.labels[label]);
+  }
+  const bool is_twice = std::set(labels.begin(), labels.end()).size() < labels.size();
+  if (exchanged.labels.empty() || is_twice) return std::nullopt;
+  warnings->Add(
+      fmt::format("labels that are not where their names say get the names of where they are: {}",
+                  FirstNames(DescribeContradictions(exchanged), 6)));
+  MarkerSequence renamed(labels, recording.num_frames(), recording.rate(), recording.first_time());
+  for (int k = 0; k < recording.num_frames(); ++k) renamed.frame(k) = recording.frame(k);
+  return renamed;
+}
 
 constexpr const char* kUsualMarkerSet = "kit53";
 
