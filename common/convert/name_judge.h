@@ -28,9 +28,6 @@ constexpr std::size_t kClusterMarkers = 5;
 /// Of a cluster, the first marker of the reading that was chosen.
 inline std::size_t FirstMarkerOf(const Hypothesis& one) { return kClusterMarkers * one.chosen; }
 
-/// "arms", "legs" or neither.
-std::string_view LimbsOf(const Landmark& landmark);
-
 /// Postures of some frames of a recording, fitted to what the labels' names mean, and what they say
 /// of the names; see UnderstandLabels.
 class NameJudge {
