@@ -6,17 +6,10 @@
 #include <numeric>
 
 #include "common/math/seeded_random.h"
-#include "common/support/error.h"
 #include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
-
-int IndexOf(const MarkerSequence& sequence, const std::string& label) {
-  const int index = sequence.FindLabel(label);
-  if (index < 0) throw Error("marker '" + label + "' is not in the recording");
-  return index;
-}
 
 /// Removes and returns a random element.
 int TakeRandom(std::vector<int>& elements, SeededRandom& random) {
@@ -73,31 +66,6 @@ MarkerSequence OccludeShare(MarkerSequence sequence, double share, double mean_f
       --h.frames_left;
       sequence.frame(k).col(h.marker).setConstant(kNaN);
     }
-  }
-  return sequence;
-}
-
-MarkerSequence HideMarkers(MarkerSequence sequence, const std::vector<std::string>& labels,
-                           int begin, int end) {
-  for (const std::string& label : labels) {
-    const int index = IndexOf(sequence, label);
-    for (int k = begin; k < end; ++k) sequence.frame(k).col(index).setConstant(kNaN);
-  }
-  return sequence;
-}
-
-MarkerSequence HideAllMarkers(MarkerSequence sequence, int begin, int end) {
-  for (int k = begin; k < end; ++k) sequence.frame(k).setConstant(kNaN);
-  return sequence;
-}
-
-MarkerSequence SwapMarkers(MarkerSequence sequence, const std::string& a, const std::string& b,
-                           int begin, int end) {
-  const int index_a = IndexOf(sequence, a);
-  const int index_b = IndexOf(sequence, b);
-  for (int k = begin; k < end; ++k) {
-    auto frame = sequence.frame(k);
-    frame.col(index_a).swap(frame.col(index_b));
   }
   return sequence;
 }

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 #include "common/motion/marker_sequence.h"
 
@@ -24,17 +22,5 @@ MarkerSequence OccludeAtRandom(MarkerSequence sequence, const RandomOcclusion& o
 /// [0, 1].
 MarkerSequence OccludeShare(MarkerSequence sequence, double share, double mean_frames,
                             std::uint64_t seed);
-
-/// Hides `labels` in frames [begin, end). @throws Error for an unknown label.
-MarkerSequence HideMarkers(MarkerSequence sequence, const std::vector<std::string>& labels,
-                           int begin, int end);
-
-/// Hides all markers in frames [begin, end).
-MarkerSequence HideAllMarkers(MarkerSequence sequence, int begin, int end);
-
-/// Each of two markers bears the other's label in frames [begin, end). @throws Error for an
-/// unknown label.
-MarkerSequence SwapMarkers(MarkerSequence sequence, const std::string& a, const std::string& b,
-                           int begin, int end);
 
 }  // namespace mmm_converter

@@ -25,6 +25,7 @@
 #include "common/motion/occlusion.h"
 #include "tests/benchmark/osim_cases.h"
 #include "tests/benchmark/simbody_assembler.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter {
 namespace {
@@ -157,7 +158,7 @@ void Hidden(const std::string& text, int first, int last) {
       PrintErrors(line("a quarter hidden"), made, Track(made.known, preset, quarter), "", kSettled,
                   kFrames);
       for (const int frames : {25, 100}) {
-        const MarkerSequence seen = HideMarkers(made.markers, limb, 100, 100 + frames);
+        const MarkerSequence seen = testing::HideMarkers(made.markers, limb, 100, 100 + frames);
         const ConversionResult result = Track(made.known, preset, seen);
         for (const char* joint : {"knee_angle_r", "ankle_angle_r"}) {
           const std::string what =

@@ -27,6 +27,7 @@
 #include "common/motion/synthetic_motion.h"
 #include "common/support/atomic_file.h"
 #include "common/support/parallel.h"
+#include "tests/support/acrobatics.h"
 #include "tests/support/long_recording.h"
 #include "tests/support/synthetic_person.h"
 
@@ -91,7 +92,7 @@ void Record(const Options& options, int index, Person* person) {
   const KinematicModel model = ScaledReferenceModel(person->height);
   const std::vector<NamedMotion> motions = {
       {"handstand", MakeHandstand(model)},
-      {"cartwheel", MakeCartwheel(model)},
+      {"cartwheel", testing::MakeCartwheel(model)},
       {"range", RangeOfMotion(model, 20, 0.7, SeedOf(options, index, 0))}};
   const std::string folder = "files_motions_" + person->id;
   std::filesystem::create_directories(options.folder + "/" + folder);

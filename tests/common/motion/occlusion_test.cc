@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/support/error.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter {
 namespace {
@@ -74,9 +75,9 @@ TEST(OcclusionTest, SeedDecides) {
 
 TEST(OcclusionTest, HidesAndSwapsExactlyTheFramesThatAreNamed) {
   const MarkerSequence full = FullSequence(4, 10);
-  const MarkerSequence hidden = HideMarkers(full, {"M1", "M3"}, 2, 5);
-  const MarkerSequence gone = HideAllMarkers(full, 2, 5);
-  const MarkerSequence swapped = SwapMarkers(full, "M0", "M2", 2, 5);
+  const MarkerSequence hidden = testing::HideMarkers(full, {"M1", "M3"}, 2, 5);
+  const MarkerSequence gone = testing::HideAllMarkers(full, 2, 5);
+  const MarkerSequence swapped = testing::SwapMarkers(full, "M0", "M2", 2, 5);
   for (int k = 0; k < 10; ++k) {
     const bool inside = k >= 2 && k < 5;
     EXPECT_EQ(IsSeen(hidden.frame(k).col(1)), !inside);
@@ -91,7 +92,7 @@ TEST(OcclusionTest, HidesAndSwapsExactlyTheFramesThatAreNamed) {
 
 TEST(OcclusionTest, UnknownLabelIsNamed) {
   try {
-    HideMarkers(FullSequence(2, 2), {"M7"}, 0, 1);
+    testing::HideMarkers(FullSequence(2, 2), {"M7"}, 0, 1);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("'M7'"), std::string::npos);

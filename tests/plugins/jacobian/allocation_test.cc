@@ -10,6 +10,7 @@
 #include "common/motion/synthetic_motion.h"
 #include "plugins/jacobian/jacobian_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/changed_markers.h"
 
 #if !defined(__SANITIZE_ADDRESS__) && defined(__GLIBC__)
 
@@ -53,7 +54,7 @@ TEST(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
   const PoseTrajectory motion = MakeHandstand(model);
   MarkerSequence markers = SynthesizeMarkers(model, motion, MarkerErrors{}, 1).Slice(0, 150);
   markers = OccludeShare(markers, 0.33, 30, 1);
-  markers = HideAllMarkers(markers, 100, 110);
+  markers = testing::HideAllMarkers(markers, 100, 110);
   JacobianSettings pull;
   pull.previous_weight = 0.2;
   JacobianSettings gradient;

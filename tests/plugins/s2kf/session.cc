@@ -10,6 +10,7 @@
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
 #include "tests/plugins/s2kf/session_motions.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/synthetic_person.h"
 
 namespace mmm_converter::s2kf {
@@ -63,7 +64,7 @@ std::vector<std::string> RightArm() {
 
 MarkerSequence SwapSides(MarkerSequence recording, Limb limb, int begin, int end) {
   const auto swap = [&](const std::string& name) {
-    recording = SwapMarkers(std::move(recording), "L" + name, "R" + name, begin, end);
+    recording = testing::SwapMarkers(std::move(recording), "L" + name, "R" + name, begin, end);
   };
   if (limb == Limb::kArm) {
     std::for_each(std::begin(kArmMarkers), std::end(kArmMarkers), swap);

@@ -11,11 +11,11 @@
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
-#include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/session.h"
 #include "tests/plugins/s2kf/session_motions.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
@@ -35,7 +35,7 @@ struct SwapScene {
     const KinematicModel person =
         is_exact ? model : FitToSubject(model, testing::DrawPerson(model, seed));
     const MarkerErrors errors = {0, is_exact ? 0 : 0.004, 0.3, 0.0005};
-    markers = SynthesizeMarkers(person, MakeCartwheel(model), errors, seed).Slice(0, 300);
+    markers = SynthesizeMarkers(person, testing::MakeCartwheel(model), errors, seed).Slice(0, 300);
     if (!is_exact) markers = OccludeShare(std::move(markers), 0.1, 20, seed);
   }
 

@@ -14,9 +14,10 @@
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/occlusion.h"
-#include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
@@ -75,7 +76,7 @@ SmoothedScene SmoothedQuickMotion() {
   return {RecordedScene("test_mmm_subject314_40joints_100Hz.xml"), 40, 2};
 }
 SmoothedScene SmoothedHandstand() {
-  return {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1};
+  return {testing::MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1};
 }
 
 MatrixXd Angles(const PoseTrajectory& trajectory) {
@@ -199,7 +200,7 @@ const MarkerErrors kCalibrated = {0, 0.004, 0.25, 0.0001};
 TEST(SmoothingTest, SmoothedHandstand) { Measure("handstand", SmoothedHandstand()); }
 
 TEST(SmoothingTest, Cartwheel) {
-  Measure("cartwheel", {MakeCartwheel(ScaledReferenceModel(1.8)), 44, 3});
+  Measure("cartwheel", {testing::MakeCartwheel(ScaledReferenceModel(1.8)), 44, 3});
 }
 
 TEST(SmoothingRealFilesTest, WalkingIsAsSmoothAsTheTruthWhereMarkersShowIt) {
@@ -249,8 +250,8 @@ void ExpectHalfHiddenIsBorne(const std::string& name, const SmoothedScene& scene
 }
 
 TEST(SmoothingTest, HalfOfTheMarkersHiddenOnTheHandstand) {
-  ExpectHalfHiddenIsBorne("handstand",
-                          {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1, kCalibrated});
+  ExpectHalfHiddenIsBorne(
+      "handstand", {testing::MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1, kCalibrated});
 }
 
 TEST(SmoothingRealFilesTest, HalfOfTheMarkersHiddenWhileWalking) {
@@ -270,7 +271,7 @@ double AccelerationError(const SmoothedScene& scene, const S2kfSettings& setting
 // not known that they are worn there.
 TEST(SmoothingTest, MarkersThatHideAndReturnMoveNoLimb) {
   for (const int seed : {3, 4, 5}) {
-    const SmoothedScene scene = {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44,
+    const SmoothedScene scene = {testing::MakeKickedHandstand(ScaledReferenceModel(1.8)), 44,
                                  static_cast<std::uint64_t>(seed)};
     const MarkerSequence seen = OccludeShare(scene.markers, 0.1, 30, seed);
     S2kfSettings settings = OfflineSettings();
@@ -318,7 +319,7 @@ TEST(SmoothingTest, EndsWithTheFilterAndIsMoreCertainBefore) {
 
 TEST(SmoothingTest, LeadingFramesWithoutMarkersTakeTheFirstSmoothedPosture) {
   const SmoothedScene scene = SmoothedHandstand();
-  const MarkerSequence seen = HideAllMarkers(scene.markers.Slice(0, 80), 0, 10);
+  const MarkerSequence seen = testing::HideAllMarkers(scene.markers.Slice(0, 80), 0, 10);
   const ConversionResult result = scene.Convert(OfflineSettings(), seen);
   for (int k = 0; k < 10; ++k) {
     EXPECT_EQ(result.trajectory.postures[k].joint_angles,
