@@ -69,11 +69,9 @@ void PlaceLimb(const KinematicModel& model, const LimbMap& limb, bool is_leg, Si
   int counts[3] = {0, 0, 0};
   const char* const names[2][3] = {{"shoulder", "elbow", "wrist"}, {"hip", "knee", "ankle"}};
   int part = 0;
-  std::vector<bool> is_below(model.segments().size());
   for (int i = limb.chain.front(); i < static_cast<int>(model.segments().size()); ++i) {
     const Segment& segment = model.segments()[i];
-    is_below[i] = i == limb.chain.front() || (segment.parent >= 0 && is_below[segment.parent]);
-    if (!is_below[i]) continue;
+    if (!model.IsBelow(i, limb.chain.front())) continue;
     const auto of_chain = std::find(limb.chain.begin(), limb.chain.end(), i);
     const auto at = of_chain - limb.chain.begin();
     part = of_chain == limb.chain.end() || at >= limb.beyond ? 2 : at < limb.fold ? 0 : 1;

@@ -215,6 +215,11 @@ int KinematicModel::FindJoint(const std::string& name) const {
 
 int KinematicModel::FindMarker(const std::string& name) const { return Find(markers_, name); }
 
+bool KinematicModel::IsBelow(int segment, int above) const {
+  while (segment > above) segment = segments_[segment].parent;
+  return segment == above;
+}
+
 double KinematicModel::total_mass() const {
   double mass = 0;
   for (const Segment& segment : segments_) mass += segment.mass;

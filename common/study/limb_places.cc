@@ -76,8 +76,8 @@ class LimbPlaces {
     std::vector<double> distances;
     for (std::size_t m = 0; m < setup_.assignments().size(); ++m) {
       const auto row = static_cast<Eigen::Index>(m);
-      if (!IsBelow(model_.markers()[setup_.assignments()[m].marker].segment,
-                   model_.joint_segment(joint))) {
+      if (!model_.IsBelow(model_.markers()[setup_.assignments()[m].marker].segment,
+                          model_.joint_segment(joint))) {
         continue;
       }
       for (Eigen::Index k = 0; k < residuals_.cols(); ++k) {
@@ -91,10 +91,6 @@ class LimbPlaces {
  private:
   int Segment(char side, const char* name) const {
     return model_.FindSegment(side + std::string(name));
-  }
-  bool IsBelow(int segment, int joint_segment) const {
-    while (segment > joint_segment) segment = model_.segments()[segment].parent;
-    return segment == joint_segment;
   }
 
   const TrackingSetup& setup_;

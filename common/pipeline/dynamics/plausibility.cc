@@ -307,12 +307,6 @@ DynamicsCheck CheckMotors(const KinematicModel& model, const Eigen::VectorXd& li
                 expected, most <= 1, "the robot's file allows its motor no more");
 }
 
-// Whether the segment lies below the joint, or is its own.
-bool IsBelow(const KinematicModel& model, int segment, int joint_segment) {
-  while (segment > joint_segment) segment = model.segments()[segment].parent;
-  return segment == joint_segment;
-}
-
 // joints x contact bodies.
 Eigen::MatrixXi ContactsBelow(const KinematicModel& model, const MotionDynamics& dynamics) {
   const auto num_bodies = static_cast<Eigen::Index>(dynamics.contact_bodies.size());
@@ -321,7 +315,7 @@ Eigen::MatrixXi ContactsBelow(const KinematicModel& model, const MotionDynamics&
     for (Eigen::Index b = 0; b < num_bodies; ++b) {
       const std::vector<int>& segments = dynamics.contact_bodies[b].segments;
       below(j, b) = std::any_of(segments.begin(), segments.end(), [&](int segment) {
-        return IsBelow(model, segment, model.joint_segment(j));
+        return model.IsBelow(segment, model.joint_segment(j));
       });
     }
   }
