@@ -22,7 +22,6 @@
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "tests/benchmark/osim_cases.h"
 #include "tests/benchmark/simbody_assembler.h"
 #include "tests/support/changed_markers.h"
@@ -70,7 +69,7 @@ void Deviations(const std::string& text, int first, int last) {
       const Case made = MakeCase(text, seed);
       const CalibratedPerson person = Calibrate(text, made);
       const Case other = MoveOtherwise(made, seed, seed + 5000);
-      const MarkerSequence seen = OccludeShare(other.markers, 0.1, 30, seed);
+      const MarkerSequence seen = testing::OccludeShare(other.markers, 0.1, 30, seed);
       AddShares(other, made.generic, Track(made.generic, preset, seen), &shares["uncalibrated"]);
       AddShares(other, made.person, Track(made.person, preset, seen), &shares["as large"]);
       ConversionResult result = Track(person.model, preset, seen);
@@ -134,7 +133,7 @@ void PrintBridge(const std::string& what, const Case& made, const std::string& j
 void Hidden(const std::string& text, int first, int last) {
   for (int seed = first; seed <= last; ++seed) {
     const Case made = MakeCase(text, seed);
-    const MarkerSequence quarter = OccludeShare(made.markers, 0.25, 50, seed);
+    const MarkerSequence quarter = testing::OccludeShare(made.markers, 0.25, 50, seed);
     std::vector<std::string> limb;  // below the right knee
     for (const ModelMarker& marker : made.known->markers()) {
       for (int s = marker.segment; s >= 0; s = made.known->segments()[s].parent) {

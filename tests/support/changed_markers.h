@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "common/motion/hiding.h"
 #include "common/motion/marker_sequence.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
@@ -15,6 +18,30 @@ inline int IndexOf(const MarkerSequence& sequence, const std::string& label) {
   const int index = sequence.FindLabel(label);
   if (index < 0) throw Error("marker '" + label + "' is not in the recording");
   return index;
+}
+
+/// Hides markers as HidingModel says.
+inline MarkerSequence Hide(const Hiding& hiding, MarkerSequence sequence, std::uint64_t seed) {
+  std::vector<LabelIx> labels;
+  for (int i = 0; i < sequence.num_labels(); ++i) labels.emplace_back(i);
+  const HiddenMarkers hidden =
+      DrawHidden(hiding, sequence.num_labels(), sequence.num_frames(), seed);
+  return WithoutHidden(std::move(sequence), labels, hidden);
+}
+
+struct RandomOcclusion {
+  double probability = 0.005;
+  double mean_frames = 100;
+};
+inline MarkerSequence OccludeAtRandom(MarkerSequence sequence, const RandomOcclusion& occlusion,
+                                      std::uint64_t seed) {
+  return Hide({HidingModel::kPaper, occlusion.probability, occlusion.mean_frames},
+              std::move(sequence), seed);
+}
+
+inline MarkerSequence OccludeShare(MarkerSequence sequence, double share, double mean_frames,
+                                   std::uint64_t seed) {
+  return Hide({HidingModel::kStationary, share, mean_frames}, std::move(sequence), seed);
 }
 
 /// Hides `labels` in frames [begin, end).

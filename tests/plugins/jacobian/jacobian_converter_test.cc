@@ -11,7 +11,6 @@
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "common/study/optimal_fit.h"
 #include "common/study/tracking_quality.h"
 #include "common/support/error.h"
@@ -176,7 +175,7 @@ TEST_F(JacobianConverterTest, AtHalfTheSpeedTheGradientHasTheOptimum) {
 }
 
 TEST_F(JacobianConverterTest, LimitsHoldWithAThirdOfTheMarkersMissing) {
-  const MarkerSequence markers = OccludeShare(MakeMarkers({}).Slice(0, 300), 0.33, 100, 1);
+  const MarkerSequence markers = testing::OccludeShare(MakeMarkers({}).Slice(0, 300), 0.33, 100, 1);
   for (const JacobianSettings& settings : {JacobianSettings(), Pull(), Gradient(2)}) {
     const ConversionResult result = Convert(markers, settings);
     ASSERT_EQ(result.trajectory.num_frames(), 300);
@@ -233,7 +232,7 @@ TEST_F(JacobianConverterTest, AHiddenMarkerIsLeftOut) {
 }
 
 TEST_F(JacobianConverterTest, ThePullKeepsJointsThatLostTheirMarkersFromJumping) {
-  const MarkerSequence markers = OccludeAtRandom(MakeMarkers({}), {0.005, 100}, 2);
+  const MarkerSequence markers = testing::OccludeAtRandom(MakeMarkers({}), {0.005, 100}, 2);
   const ConversionResult free = Convert(markers, {});
   const ConversionResult held = Convert(markers, Pull());
   EXPECT_LT(LargestStep(held.trajectory), 0.5 * LargestStep(free.trajectory));

@@ -8,7 +8,6 @@
 #include "common/calibrate/calibration.h"
 #include "common/math/seeded_random.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "tests/plugins/s2kf/session_motions.h"
 #include "tests/support/changed_markers.h"
 #include "tests/support/synthetic_person.h"
@@ -53,7 +52,7 @@ KinematicModel Session::Calibrate() const {
 }
 
 MarkerSequence HideBlocks(const MarkerSequence& recording, std::uint64_t seed) {
-  return OccludeShare(recording, kHiddenShare, kHiddenFrames, seed);
+  return testing::OccludeShare(recording, kHiddenShare, kHiddenFrames, seed);
 }
 
 std::vector<std::string> RightArm() {

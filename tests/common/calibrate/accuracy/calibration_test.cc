@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/support/error.h"
 #include "tests/support/acrobatics.h"
@@ -187,7 +186,7 @@ TEST(Calibration, SwappedLabelsAndGapsDoNotBendIt) {
   Trial trial(model, testing::RangeOfMotion(model, 40, 0.7, 1), 1);
   trial.recording() = testing::SwapMarkers(trial.recording(), "LKNE", "RKNE", 1000, 1400);
   trial.recording() = testing::SwapMarkers(trial.recording(), "LFRA", "LWPS", 2000, 2600);
-  trial.recording() = OccludeShare(trial.recording(), 0.2, 100, 1);
+  trial.recording() = testing::OccludeShare(trial.recording(), 0.2, 100, 1);
   const Trial held_out(model, MakeHandstand(model), 1);
   EXPECT_LT(held_out.CentreError(FitToSubject(model, trial.Calibrate().subject)), 0.008);
 }

@@ -13,7 +13,6 @@
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
 #include "tests/support/acrobatics.h"
@@ -227,7 +226,7 @@ TEST(SmoothingRealFilesTest, QuickMotionIsAsSmoothAsTheTruthWhereMarkersShowIt) 
 
 /// Exactly half of all markers hidden throughout; distances to all of them.
 void ExpectHalfHiddenIsBorne(const std::string& name, const SmoothedScene& scene) {
-  const MarkerSequence seen = OccludeShare(scene.markers, 0.5, 100, 1);
+  const MarkerSequence seen = testing::OccludeShare(scene.markers, 0.5, 100, 1);
   const ConversionResult result = scene.Convert(OfflineSettings(), seen);
   double mean = 0;
   double worst = 0;
@@ -273,7 +272,7 @@ TEST(SmoothingTest, MarkersThatHideAndReturnMoveNoLimb) {
   for (const int seed : {3, 4, 5}) {
     const SmoothedScene scene = {testing::MakeKickedHandstand(ScaledReferenceModel(1.8)), 44,
                                  static_cast<std::uint64_t>(seed)};
-    const MarkerSequence seen = OccludeShare(scene.markers, 0.1, 30, seed);
+    const MarkerSequence seen = testing::OccludeShare(scene.markers, 0.1, 30, seed);
     S2kfSettings settings = OfflineSettings();
     const double learnt = AccelerationError(scene, settings, seen);
     settings.learn_places = false;
@@ -288,7 +287,7 @@ TEST(SmoothingTest, MarkersThatHideAndReturnMoveNoLimb) {
 
 TEST(SmoothingTest, TheResultDoesNotDependOnTheChunks) {
   const SmoothedScene scene = SmoothedHandstand();
-  const MarkerSequence seen = OccludeShare(scene.markers.Slice(0, 100), 0.3, 20, 1);
+  const MarkerSequence seen = testing::OccludeShare(scene.markers.Slice(0, 100), 0.3, 20, 1);
   S2kfSettings settings = OfflineSettings();
   settings.choose_process_noise_scale = false;
   const ConversionResult whole = scene.Convert(settings, seen);
@@ -305,7 +304,7 @@ TEST(SmoothingTest, EndsWithTheFilterAndIsMoreCertainBefore) {
   const SmoothedScene scene = SmoothedHandstand();
   S2kfSettings settings = OfflineSettings();
   settings.choose_process_noise_scale = false;
-  const MarkerSequence seen = OccludeShare(scene.markers.Slice(0, 300), 0.3, 50, 1);
+  const MarkerSequence seen = testing::OccludeShare(scene.markers.Slice(0, 300), 0.3, 50, 1);
   const ConversionResult smoothed = scene.Convert(settings, seen);
   const ConversionResult filtered = scene.Convert(WithoutSmoothing(settings), seen);
   EXPECT_EQ(smoothed.trajectory.postures.back().joint_angles,

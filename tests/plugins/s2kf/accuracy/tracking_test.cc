@@ -8,7 +8,6 @@
 #include "common/math/rotation.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
@@ -150,7 +149,7 @@ TEST(TrackingTest, AThirdOfTheMarkersHiddenThroughout) {
   double worst_mean = 0;
   double worst_frame = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const MarkerSequence seen = OccludeShare(scene.markers, 0.33, 100, seed);
+    const MarkerSequence seen = testing::OccludeShare(scene.markers, 0.33, 100, seed);
     const TrackedRun run = scene.Run(S2kfSettings{}, seen);
     EXPECT_TRUE(run.inside_limits);
     mean += run.MeanDistance(0, n) / 20;
