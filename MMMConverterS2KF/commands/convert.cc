@@ -245,7 +245,6 @@ int ConvertSeveral(const Arguments& arguments) {
     try {
       ConversionReport report = RunConversion(request, LabelFirst(request, {}, progress), progress);
       bar.Clear();
-      StudyExports(exports, &report);
       request.exports.clear();
       WriteConversion(request, &report);
       LogWarnings(report.warnings);
