@@ -12,7 +12,6 @@
 
 #include "common/angles/angle_table.h"
 #include "common/io/tables/bvh_writer.h"
-#include "common/io/tables/mot_writer.h"
 #include "common/io/tables/npz_writer.h"
 #include "common/io/tables/osim_tables.h"
 #include "common/io/tables/pose_table.h"

@@ -6,10 +6,12 @@
 
 #include <cassert>
 #include <cmath>
+#include <vector>
 
 #include "common/io/tables/column_names.h"
 #include "common/io/tables/table_rows.h"
 #include "common/io/xml/xml_text.h"
+#include "common/math/rotation.h"
 #include "common/math/up_axis.h"
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
@@ -51,6 +53,25 @@ Eigen::VectorXd UnitsOf(const CoordinateMap& map) {
     units[static_cast<Eigen::Index>(i)] = is_turn ? kDegrees : 1;
   }
   return units;
+}
+
+// Nanoseconds, 0.1 micrometres, 0.0000001 degrees: not less than in the motion files.
+constexpr int kMetreDecimals = 7;
+constexpr int kDegreeDecimals = 7;
+
+std::string MotHeader(const PoseTrajectory& trajectory, const std::string& root) {
+  std::vector<std::string> columns = {"time"};
+  for (const char* part : {"_tx", "_ty", "_tz", "_rx", "_ry", "_rz"})
+    columns.push_back(root + part);
+  columns.insert(columns.end(), trajectory.joint_names.begin(), trajectory.joint_names.end());
+  columns = ColumnNames(columns);
+  // OpenSim takes lines with "=" as keys, and ignores other lines before "endheader".
+  return fmt::format(
+      "Coordinates\nversion=1\nnRows={}\nnColumns={}\ninDegrees=yes\n\n"
+      "Seconds, metres, degrees; y is up.\n"
+      "The rotation of {} is Ry(ry) Rz(rz) Rx(rx), about axes that turn with it.\n"
+      "endheader\n{}\n",
+      trajectory.num_frames(), columns.size(), OneWord(root), fmt::join(columns, "\t"));
 }
 
 }  // namespace
@@ -133,6 +154,20 @@ TextPieces FormatOsimMarkerErrors(const std::vector<std::string>& names,
   return TableText(
       OsimHeader("Model Marker Errors from IK", rows.count(), false, ColumnNames(columns)), rows,
       row);
+}
+
+TextPieces FormatMot(const PoseTrajectory& trajectory, const std::string& root) {
+  const Eigen::Matrix3d to_y_up = RotationToZUp(UpAxis::kY).transpose();
+  const auto row = [&trajectory, to_y_up, rpy = RpySeries()](int k, std::string* out) mutable {
+    const Posture& q = trajectory.postures[k];
+    AppendDecimal(trajectory.time(k), kSecondDecimals, out);
+    AppendCells(Eigen::Vector3d(to_y_up * q.position), '\t', kMetreDecimals, "", out);
+    // Turning the axes of both sides turns the three rotations' axes.
+    const Eigen::Vector3d turns = kDegrees * (to_y_up * rpy.Next(q.orientation));
+    AppendCells(turns, '\t', kDegreeDecimals, "", out);
+    AppendCells(Eigen::VectorXd(kDegrees * q.joint_angles), '\t', kDegreeDecimals, "", out);
+  };
+  return TableText(MotHeader(trajectory, root), {0, trajectory.num_frames()}, row);
 }
 
 }  // namespace mmm_converter
