@@ -35,7 +35,7 @@ struct Needs {
   double bytes = 0;
 };
 
-/// Of the attributes of an element and of its <Metadata>.
+/// Bytes of an element's attributes and of its <Metadata>.
 double TextBytes(const XmlElement& element) {
   double bytes = 0;
   for (const auto& [name, value] : element.attributes) {
@@ -325,7 +325,7 @@ class ManifestReader {
                     closest.empty() ? "" : "; did you mean " + closest + "?"));
   }
 
-  // Of a person that is estimated, one of the manifest, and one that is given, the innermost holds.
+  // Says who the person is: the innermost element that estimates, names or gives one holds.
   void ChooseSubject(const XmlElement& element, BatchEntry* settings) {
     ConversionRequest* request = &settings->request;
     const std::string* person = element.FindAttribute("person");

@@ -185,7 +185,7 @@ void LogWarningsOf(const AllMotions& all) {
   }
 }
 
-// Of several recordings a condition for each, in their order, or one for all.
+// Gives each recording its condition, in their order, or all of them the only one.
 void SpreadConditions(std::vector<ConversionRequest>* requests) {
   const std::vector<std::string> conditions = Split(requests->front().input.patient.condition, ',');
   if (conditions.size() == 1) return;

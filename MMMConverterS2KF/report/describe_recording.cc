@@ -48,8 +48,8 @@ struct C3dDetails {
   RecordedForces forces;  ///< of those plates that can be read
 };
 
-/// Of values that are listed; the section of a real file has 130 kB at most, that of a hostile one
-/// can have tens of millions of numbers.
+/// Bounds the values that are listed: the section of a real file has 130 kB at most, that of a
+/// hostile one can have tens of millions of numbers.
 constexpr std::size_t kMostBytes = 1 << 20;
 
 const char* ProcessorName(C3dProcessor processor) {
@@ -211,7 +211,7 @@ const PlateForces* ForcesOf(const RecordedForces& forces, std::size_t plate) {
   return nullptr;
 }
 
-/// Of a sample, counted as markers' frames are from the beginning of the capture [s].
+/// The time of a sample [s], counted as markers' frames are from the beginning of the capture.
 double TimeOf(int sample, const C3dLayout& layout, const RecordedForces& forces) {
   const double start = layout.rate > 0 ? (layout.first_frame - 1) / layout.rate : 0;
   return start + (forces.rate > 0 ? sample / forces.rate : 0);

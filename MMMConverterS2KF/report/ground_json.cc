@@ -115,8 +115,8 @@ Json BandsJson(const NormalBands& normal) {
   return {{"source", normal.source}, {"lacking", LackingAngles(normal)}, {"bands", bands}};
 }
 
-/// Of each foot the Gait Variable Scores of its strides, and their root mean square, the Gait
-/// Profile Score. Null: a normal band is missing, or an angle of a stride.
+/// The Gait Variable Scores of each foot's strides, and their root mean square, the Gait Profile
+/// Score. Null: a normal band is missing, or an angle of a stride.
 Json ProfileJson(const std::vector<GaitCycle>& singles, const NormalBands& normal) {
   Json profile;
   for (const Side side : kSides) {

@@ -296,7 +296,7 @@ std::string Describe(const Reading& reading) {
   return fmt::format("{}", fmt::join(texts, " and "));
 }
 
-/// Those that differ in one thing, then those that differ in two. may_exchange: also of channels.
+/// Readings that differ in one thing, then those that differ in two. may_exchange: channels, too.
 std::vector<Reading> OtherReadings(const RecordedForces& forces,
                                    const std::vector<std::size_t>& plates, bool may_exchange) {
   std::vector<Reading> single(kOrders.size() - 1);

@@ -42,7 +42,8 @@ constexpr double kNearby = 0.08;  ///< another meaning is right
 constexpr double kBetter = 0.5;
 constexpr double kExchangedShare = 0.75;  ///< of the distance, with sides exchanged
 
-// Of an exchanged pair both are far: the metatarsal heads, the nearest ones, 0.04 to 0.05 m each.
+// Both labels of an exchanged pair are this far [m]: the metatarsal heads, the nearest ones, are
+// exchanged by 0.04 to 0.05 m each.
 constexpr double kDoubtfulPair = 0.035;
 constexpr double kNearer = 0.8;        ///< to each other's places, while postures are of their own
 constexpr double kRemoved = 0.5;       ///< of the pair's distances, by an exchange

@@ -272,7 +272,7 @@ void SetFrame(int k, const WholeBodyMotion& body, const PoseTrajectory& motion,
   result->residual_moment.col(k) = root_moment - from_root.cross(force);
 }
 
-/// Of the whole motion; leaves frames [begin, begin + frames).
+/// Finds the ground by the whole motion, and keeps frames [begin, begin + frames).
 GroundContact FindGround(const KinematicModel& model, const PoseTrajectory& measured,
                          const PoseTrajectory& smooth, int begin, int frames,
                          const ContactFinder& find_contacts, MotionDynamics* result) {

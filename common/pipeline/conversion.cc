@@ -63,7 +63,7 @@ void CheckHasSubject(const ConversionRequest& request, const ConversionPlan& pla
   }
 }
 
-// Of one of several motions of a file the request's person and model are those of its persons.
+// Where a file has several motions, the request's person and model are those of its persons.
 ObjectRequest ObjectRequestOf(const ConversionRequest& request, const ConversionPlan& plan,
                               bool is_one_of_several) {
   std::error_code failure;

@@ -267,8 +267,8 @@ std::string GaitSentence(const Gait& gait) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Those of the recording, and what contacts tell beyond; where found ones count, or the file's are
-/// doubtful, these instead of the person's among the recording's.
+/// The recording's events, and what contacts tell beyond; where found ones count, or the file's are
+/// doubtful, they replace the person's among the recording's.
 std::vector<C3dEvent> AllEvents(const Contacts& contacts, const ConversionReport& report) {
   const PoseTrajectory& motion = report.result.trajectory;
   const std::string& person = report.plan.input.recording.subject;

@@ -416,7 +416,7 @@ Eigen::MatrixXd Distances(const FoundLabels& found, const NamedMarkersOf& of,
   return distances;
 }
 
-/// Of a marker; NaN: never seen.
+/// The mean distance of a marker; NaN: it is never seen.
 double MeanDistance(const Eigen::MatrixXd& distances, Eigen::Index marker) {
   return Mean({distances.col(marker).data(), static_cast<std::size_t>(distances.rows())});
 }
@@ -633,7 +633,7 @@ FittedLabels FitLabels(const FoundLabels& found, const MarkerSequence& markers,
   fit.mean_distance = Mean(all);
   fit.p95_distance = Percentile(all, 95);
   if (reference == nullptr) return fitted;
-  // Of a repair by the names that were there: those that were found are sought at the height.
+  // In a repair the names that were there tell the height: those that were found were sought at it.
   const bool are_old_right = found.is_repair && !found.has_exchanged_sides;
   const MarkerSequence& telling = are_old_right ? markers : named;
   const NamedMarkersOf told = FindMarkers(found, telling);

@@ -65,7 +65,7 @@ constexpr std::size_t kFewestFlatFrames = 5;
 constexpr int kMostPostures = 500;
 constexpr int kFewestShowing = 2;  // markers; one takes up where it is worn
 
-/// Of frames that show too few markers nobody says where joints are.
+/// Nobody says where joints are in frames that show too few markers.
 std::vector<int> SeenFrames(const TrackingSetup& setup, const MarkerSequence& recording,
                             int num_frames) {
   std::vector<int> seen;

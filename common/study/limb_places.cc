@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 constexpr int kMostFrames = 40;
 constexpr double kMostAtEnd = 0.5;     // of the frames
 constexpr double kUprightTrunk = 0.5;  // cosine of 60 degrees
-// Of the ankle above the hip, over the length of the trunk: who sits with straight legs has 0.
+// The height of the ankle above the hip, in lengths of the trunk: who sits with straight legs has
+// 0.
 constexpr double kBesideTrunk = 0.2;
 // The same of a leg that few labels show: on an arm that hangs down, feet are at the hips.
 constexpr double kBesideTrunkOfFew = -0.2;

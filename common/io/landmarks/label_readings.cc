@@ -652,7 +652,7 @@ class LabelsOfPerson {
     }
   }
 
-  /// Of several readings, the first that no label without choice has.
+  /// Takes the first of several readings that no label without choice has.
   void TakeFree() {
     std::set<std::pair<int, BodySide>> taken;
     const auto key = [](const LabelReading& one) { return std::pair(one.landmark, one.side); };

@@ -190,7 +190,7 @@ void MjcfMass::Add(const MjcfMass& other) {
   mass = sum;
 }
 
-/// Of a `<geom>`. X_BF: of the frame around it in the body.
+/// Reads a `<geom>`. X_BF: the frame around it in the body.
 MjcfGeom ReadMjcfGeom(const MjcfAttributes& attributes, const Eigen::Isometry3d& X_BF,
                       const XmlElement& element, MjcfText* text) {
   MjcfGeom geom;
@@ -210,7 +210,7 @@ MjcfGeom ReadMjcfGeom(const MjcfAttributes& attributes, const Eigen::Isometry3d&
   return geom;
 }
 
-/// Of an `<inertial>`.
+/// Reads an `<inertial>`.
 MjcfMass ReadMjcfInertial(const MjcfAttributes& attributes, const Eigen::Isometry3d& X_BF,
                           const XmlElement& element, MjcfText* text) {
   MjcfMass mass;

@@ -35,10 +35,11 @@ using Layout = std::array<SmplJoint, kSmplJoints>;
 
 inline constexpr double kFarthestJoint = 1e6;  ///< a coordinate that means anything
 
-// Of SMPL with and without hands, feet and face, in the layers of smplx and of data sets.
+// Joints of SMPL with and without hands, feet and face, in the layers of smplx and of data sets.
 constexpr std::size_t kCounts[] = {22, 24, 25, 45, 52, 54, 55, 73, 127, 144};
 constexpr int kSampledFrames = 50;
-// Of limbs: Kinect's, OpenPose's and Human3.6M's orders have 3 and more, SMPL's and LAFAN1's none.
+// Limbs whose bones change their length or differ between the sides: the orders of Kinect, OpenPose
+// and Human3.6M have 3 and more, those of SMPL and LAFAN1 none.
 constexpr int kMostStrangeLimbs = 3;
 
 constexpr Layout kLafan = {

@@ -74,7 +74,7 @@ OsimCoordinate ReadCoordinate(const XmlElement& element, Diagnostics* diagnostic
   return coordinate;
 }
 
-/// Those that the joint's element lists, of either layout.
+/// The coordinates that the joint's element lists, in either layout.
 std::vector<OsimCoordinate> ListedCoordinates(const XmlElement& joint, Diagnostics* diagnostics) {
   std::vector<OsimCoordinate> coordinates;
   const XmlElement* list = joint.FindChild("coordinates");

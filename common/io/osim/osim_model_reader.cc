@@ -40,7 +40,7 @@ class OsimCouplings {
 
   int Find(const std::string& coordinate) const;  ///< index; -1: there is none
   bool IsFree(int coordinate) const { return is_free_[coordinate]; }
-  /// Of free coordinates only.
+  /// The value of a coordinate by free ones only.
   const OsimExpression& ValueOf(int coordinate) const { return values_[coordinate]; }
   /// An expression in free coordinates that the document has in any. Terms that are straight have
   /// no constant of their own. line: for an error, where that can't be said by sums.
@@ -397,7 +397,7 @@ void ModelBuilder::AddAxis(const OsimJoint& joint, const OsimAxis& axis, bool is
   }
 }
 
-/// Of the segments that a coordinate moves, one gets its name and range: where there is one, a
+/// One of the segments that a coordinate moves gets its name and range: where there is one, a
 /// segment whose turn or shift is the coordinate itself.
 void ModelBuilder::ChooseLeaders() {
   for (const auto& [name, moved] : moved_by_) {

@@ -106,8 +106,8 @@ std::vector<XmlPlace> OsimPathPoints(const XmlPlace& force) {
   return OsimEdit::Objects(force.Child("GeometryPath"), "PathPointSet");
 }
 
-/// Of all forces of the model, in its order, with the points that are active at the default
-/// posture. They are valid as long as `edit`.
+/// The paths of all forces of the model, in its order, with the points that are active at the
+/// default posture. They are valid as long as `edit`.
 std::vector<OsimPath> MeasureOsimPaths(OsimEdit* edit) {
   PathMeter meter(edit);
   std::vector<OsimPath> paths;

@@ -13,13 +13,13 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Of SI units: no body has more, and squares of it are numbers.
+// No body has more in SI units, and squares of it are numbers.
 constexpr double kMostOfNumbers = 1e9;
 
 // A MultiplierFunction may hold another one, but none does so often.
 constexpr int kDeepest = 16;
-// Of a polynomial; those of models have up to some 10, and each is evaluated for each marker, frame
-// and sample.
+// Polynomials of models have up to some 10, and each is evaluated for each marker, frame and
+// sample.
 constexpr std::size_t kMostCoefficients = 32;
 
 class FunctionReader {

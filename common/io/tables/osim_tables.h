@@ -15,14 +15,14 @@ namespace mmm_converter {
 // the axes of the model's ground (y up, where the model is not one of OpenSim). Postures must be
 // finite. Models, errors and trajectories must outlive the texts.
 
-/// Of a model that has coordinates(), all of the model, with those that are locked or follow
-/// others, as its inverse kinematics writes them: turns in degrees, all else in metres and radians.
+/// All coordinates of a model that has coordinates(), with those that are locked or follow others,
+/// as its inverse kinematics writes them: turns in degrees, all else in metres and radians.
 TextPieces FormatOsimMotion(const KinematicModel& model, const PoseTrajectory& trajectory);
 
 /// How tables of FormatOsimDeviations begin.
 inline constexpr const char* kOsimDeviations = "Standard deviations of coordinates";
 
-/// Of such a model the standard deviations of the coordinates, in their units. Coordinates that the
+/// The standard deviations of such a model's coordinates, in their units. Coordinates that the
 /// tracker says nothing of are 0 where they are constant, else nan.
 TextPieces FormatOsimDeviations(const KinematicModel& model, const PoseTrajectory& trajectory);
 

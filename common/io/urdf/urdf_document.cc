@@ -236,8 +236,8 @@ void CompleteLimit(XmlElement* joint) {
   }
 }
 
-/// Of the URDF what a tree of joints, masses and shapes is made of. Of these urdfdom sees no
-/// shapes, so that damaged ones do no harm, and only XML of a depth that is known to be small.
+/// What a tree of joints, masses and shapes is made of. urdfdom sees no shapes, so that damaged
+/// ones do no harm, and only XML of a depth that is known to be small.
 XmlElement Essence(const XmlElement& robot) {
   XmlElement essence;
   essence.name = robot.name;

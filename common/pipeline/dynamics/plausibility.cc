@@ -77,7 +77,7 @@ struct FrameCheck {
   double most;
 };
 
-// Of the frames that count, at most kMostBadFrames may be bad.
+// At most kMostBadFrames of the frames that count may be bad.
 template <typename Counts, typename Figure>
 DynamicsCheck CheckFrames(const MotionDynamics& dynamics, const FrameCheck& check,
                           const std::string& why_no_forces, Counts counts, Figure figure) {
@@ -282,7 +282,7 @@ DynamicsCheck CheckTorque(const MotionDynamics& dynamics, const Plausibility& ju
       fmt::format("no joint of a body has more than some {:g} N m for each kilogram", kMostTorque));
 }
 
-// Of joints whose motors' limits are known, the one that needs most of its own.
+// Judges the joint that needs most of its motor's limit, where such limits are known.
 DynamicsCheck CheckMotors(const KinematicModel& model, const Eigen::VectorXd& limits,
                           const Plausibility& judged) {
   const char* name = "motors off the ground";
