@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string>
 
 #include "MMMConverterS2KF/commands/commands.h"
 #include "MMMConverterS2KF/commands/request_options.h"
-#include "MMMConverterS2KF/report/all_motions_summary.h"
 #include "MMMConverterS2KF/report/conversion_page.h"
 #include "MMMConverterS2KF/report/conversion_summary.h"
+#include "MMMConverterS2KF/report/json.h"
 #include "MMMConverterS2KF/report/names_summary.h"
 #include "MMMConverterS2KF/terminal/command_line.h"
 #include "MMMConverterS2KF/terminal/log.h"
 #include "MMMConverterS2KF/terminal/progress.h"
+#include "common/motion/marker_residuals.h"
 #include "common/pipeline/all_motions.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/exporters.h"
@@ -25,9 +28,53 @@
 #include "common/support/atomic_file.h"
 #include "common/support/output_plan.h"
 #include "common/support/text.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
+
+std::string DescribeModel(const ConversionReport& report) {
+  if (!report.plan.object) {
+    return fmt::format("{} joints", report.result.trajectory.joint_names.size());
+  }
+  const std::string file =
+      report.plan.object->is_built() ? ": " + report.plan.input.model_file : "";
+  return "object, " + DescribeObjectModel(*report.plan.object) + file;
+}
+
+std::string DescribeOutcome(const MotionOutcome& outcome) {
+  if (!outcome.failure.empty()) return "not converted";
+  if (!outcome.report) return "has no markers; left as it is";
+  const ConversionReport& report = *outcome.report;
+  const ResidualSummary& distance = report.figures.distance;
+  return fmt::format("{} frames, {} markers, mean distance {:.1f} mm, max {:.1f}; {}; {}",
+                     report.plan.input.recording.markers.num_frames(),
+                     report.plan.setup.assignments().size(), kMillimetres * distance.mean,
+                     kMillimetres * distance.max, DescribeModel(report),
+                     DescribeVerdict(report.verdict));
+}
+
+/// A line for each motion of a file, and one for the file.
+std::string FormatAllMotions(const AllMotions& all) {
+  std::size_t width = 0;
+  for (const MotionOutcome& outcome : all.motions) width = std::max(width, outcome.name.size());
+  std::string text;
+  for (const MotionOutcome& outcome : all.motions) {
+    text += fmt::format("{:<{}}  {}\n", outcome.name, width, DescribeOutcome(outcome));
+  }
+  return text + fmt::format("written to {}\n", all.output);
+}
+
+/// As JSON: the summary of each motion, or why there is none.
+Json ToJson(const AllMotions& all) {
+  Json motions = Json::array();
+  for (const MotionOutcome& outcome : all.motions) {
+    motions.push_back({{"name", outcome.name},
+                       {"failure", TextOrNull(outcome.failure)},
+                       {"summary", outcome.report ? ToJson(*outcome.report) : Json(nullptr)}});
+  }
+  return {{"output", all.output}, {"motions", motions}};
+}
 
 const OptionGroup kConvertFiles = {
     "Files",
@@ -138,7 +185,7 @@ void LogWarningsOf(const AllMotions& all) {
   }
 }
 
-// Of several recordings a condition for each, in their order, or one for all.
+// Gives each recording its condition, in their order, or all of them the only one.
 void SpreadConditions(std::vector<ConversionRequest>* requests) {
   const std::vector<std::string> conditions = Split(requests->front().input.patient.condition, ',');
   if (conditions.size() == 1) return;
@@ -198,7 +245,6 @@ int ConvertSeveral(const Arguments& arguments) {
     try {
       ConversionReport report = RunConversion(request, LabelFirst(request, {}, progress), progress);
       bar.Clear();
-      StudyExports(exports, &report);
       request.exports.clear();
       WriteConversion(request, &report);
       LogWarnings(report.warnings);

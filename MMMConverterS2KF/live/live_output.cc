@@ -166,7 +166,9 @@ std::vector<ConversionReport> LiveOutput::Finish(
       if (motion.is_first()) report.plan.calibration = calibration;
       if (!motion.is_first()) report.plan.subject_output.clear();
       MeasureAndJudge(&report);
-      WriteConversion(RequestOf(motion), &report);
+      const ConversionRequest request = RequestOf(motion);
+      StudyExports(request.exports, &report);
+      WriteConversion(request, &report);
       reports.push_back(std::move(report));
     }
     std::filesystem::remove(journal);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/io/tables/column_names.h"
+#include "common/io/tables/table_rows.h"
 #include "common/io/xml/xml_text.h"
 #include "common/math/up_axis.h"
 #include "common/support/error.h"
@@ -88,7 +89,7 @@ class RowWriter {
     for (const PlateAndBearer& pair : pairs_) held_.push_back(FirstCentre(pair));
   }
 
-  void Append(int sample, std::string* out) {
+  void operator()(int sample, std::string* out) {
     AppendDecimal(forces_.time(sample), kSecondDecimals, out);
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       const PlateForces& plate = *pairs_[i].plate;
@@ -102,16 +103,12 @@ class RowWriter {
       }
       for (const Eigen::Vector3d& one : {force, held_[i], moment}) AppendVector(one, out);
     }
-    *out += '\n';
   }
 
  private:
   static void AppendVector(const Eigen::Vector3d& v, std::string* out) {
     static const Eigen::Matrix3d rotation = RotationToZUp(UpAxis::kY).transpose();
-    for (const double number : Eigen::Vector3d(rotation * v)) {
-      *out += '\t';
-      AppendDecimal(number, kForceDecimals, out);
-    }
+    AppendCells(Eigen::Vector3d(rotation * v), '\t', kForceDecimals, "", out);
   }
 
   const RecordedForces& forces_;
@@ -122,36 +119,26 @@ class RowWriter {
 }  // namespace
 
 TextPieces FormatExternalLoadsTable(const ExternalLoads& loads, const std::string& file_name) {
-  return [loads, file_name](const TextSink& sink) {
-    const RecordedForces& forces = *loads.forces;
-    const std::vector<PlateAndBearer> pairs = PairsOf(loads);
-    const int samples = forces.plates.empty() ? 0 : static_cast<int>(forces.plates[0].force.cols());
-    const auto sample = [&](double time) {
-      return std::clamp((time - forces.first_time) * forces.rate, 0.0,
-                        std::max(samples - 1.0, 0.0));
-    };
-    // A row at a moment that rounding moves beyond an end is within.
-    const int first = static_cast<int>(std::ceil(sample(loads.begin) - 1e-6));
-    const int last = static_cast<int>(std::floor(sample(loads.end) + 1e-6));
-    PieceWriter pieces(sink);
-    *pieces.text() +=
-        fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees=no\nendheader\ntime",
-                    OneWord(file_name), last - first + 1, 1 + 9 * pairs.size());
-    for (std::size_t i = 1; i <= pairs.size(); ++i) {
-      *pieces.text() += fmt::format(
-          "\tground_force_{0}_vx\tground_force_{0}_vy\tground_force_{0}_vz\tground_force_{0}_px"
-          "\tground_force_{0}_py\tground_force_{0}_pz\tground_torque_{0}_x\tground_torque_{0}_y"
-          "\tground_torque_{0}_z",
-          i);
-    }
-    *pieces.text() += '\n';
-    RowWriter rows(loads, pairs);
-    for (int k = first; k <= last; ++k) {
-      rows.Append(k, pieces.text());
-      pieces.EndPart();
-    }
-    pieces.Flush();
+  const RecordedForces& forces = *loads.forces;
+  const std::vector<PlateAndBearer> pairs = PairsOf(loads);
+  const int samples = forces.plates.empty() ? 0 : static_cast<int>(forces.plates[0].force.cols());
+  const auto sample = [&](double time) {
+    return std::clamp((time - forces.first_time) * forces.rate, 0.0, std::max(samples - 1.0, 0.0));
   };
+  // A row at a moment that rounding moves beyond an end is within.
+  const int first = static_cast<int>(std::ceil(sample(loads.begin) - 1e-6));
+  const int last = static_cast<int>(std::floor(sample(loads.end) + 1e-6));
+  std::string header =
+      fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees=no\nendheader\ntime",
+                  OneWord(file_name), last - first + 1, 1 + 9 * pairs.size());
+  for (std::size_t i = 1; i <= pairs.size(); ++i) {
+    header += fmt::format(
+        "\tground_force_{0}_vx\tground_force_{0}_vy\tground_force_{0}_vz\tground_force_{0}_px"
+        "\tground_force_{0}_py\tground_force_{0}_pz\tground_torque_{0}_x\tground_torque_{0}_y"
+        "\tground_torque_{0}_z",
+        i);
+  }
+  return TableText(header + '\n', {first, last + 1}, RowWriter(loads, pairs));
 }
 
 std::string FormatExternalLoadsXml(const ExternalLoads& loads, const std::string& table) {

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -39,8 +42,18 @@ constexpr double kNearby = 0.08;  ///< another meaning is right
 constexpr double kBetter = 0.5;
 constexpr double kExchangedShare = 0.75;  ///< of the distance, with sides exchanged
 
-}  // namespace
+// Both labels of an exchanged pair are this far [m]: the metatarsal heads, the nearest ones, are
+// exchanged by 0.04 to 0.05 m each.
+constexpr double kDoubtfulPair = 0.035;
+constexpr double kNearer = 0.8;        ///< to each other's places, while postures are of their own
+constexpr double kRemoved = 0.5;       ///< of the pair's distances, by an exchange
+constexpr std::size_t kMostPairs = 8;  ///< that are tried at once, the nearest first
+constexpr int kMostExchanges = 3;
+// A posture that follows wrong labels, as a pelvis that is turned round, hides which they are: with
+// one label this far away, any two of its limb may be exchanged [m].
+constexpr double kAnywhere = 0.09;
 
+/// "arms", "legs" or neither.
 std::string_view LimbsOf(const Landmark& landmark) {
   for (const char* part : {"upper arm", "forearm", "hand"}) {
     if (landmark.part == part) return "arms";
@@ -50,6 +63,16 @@ std::string_view LimbsOf(const Landmark& landmark) {
   }
   return "";
 }
+
+std::string_view LimbsOrPartOf(const Landmark& landmark) {
+  const std::string_view limbs = LimbsOf(landmark);
+  return limbs.empty() ? std::string_view(landmark.part) : limbs;
+}
+
+constexpr double kMostClusterStray = 0.06;  ///< of its label about its place on the segment [m]
+constexpr double kFarthestWorn = 0.3;  ///< of a cluster's label from where such are usually [m]
+
+}  // namespace
 
 NameJudge::NameJudge(const KinematicModel& reference, const std::vector<int>& joints,
                      const MarkerSequence& recording, const LandmarkTable& table,
@@ -391,6 +414,234 @@ void NameJudge::TakePlace(const NamedLabel& before, const NamedLabel& now, Marke
     for (MarkerPair& own : set->pairs) {
       if (own.target == now.marker) own.noise_scale = pair.noise_scale;
     }
+  }
+}
+
+double NameJudge::GainOf(std::size_t i, std::size_t j) const {
+  const Hypothesis &a = places_[i], &b = places_[j];
+  const LabelReading &one = Chosen(a), &other = Chosen(b);
+  const bool is_mirrored = one.landmark == other.landmark && one.side != other.side;
+  const bool is_of_side = one.landmark != other.landmark && one.side == other.side;
+  const Landmark &of_one = LandmarkOf(one), &of_other = LandmarkOf(other);
+  if (!(is_mirrored || is_of_side) || LimbsOrPartOf(of_one) != LimbsOrPartOf(of_other)) return kNaN;
+  const double from_a = Distance(a.label, a.markers[a.chosen]);
+  const double from_b = Distance(b.label, b.markers[b.chosen]);
+  const double exchanged =
+      Distance(a.label, b.markers[b.chosen]) + Distance(b.label, a.markers[a.chosen]);
+  const bool are_near = is_of_side && of_one.part == of_other.part &&
+                        std::min(from_a, from_b) > kDoubtfulPair &&
+                        exchanged < kNearer * (from_a + from_b);
+  if (!are_near && !(std::max(from_a, from_b) > kAnywhere)) return kNaN;
+  return from_a + from_b - exchanged;
+}
+
+std::vector<NameJudge::ExchangedPair> NameJudge::DoubtfulPairs() const {
+  // By the landmarks that are exchanged: those of both sides together.
+  std::map<std::pair<int, int>, std::pair<double, ExchangedPair>> of_landmarks;
+  std::vector<std::pair<double, ExchangedPair>> pairs;
+  for (std::size_t a = 0; a < places_.size(); ++a) {
+    for (std::size_t b = a + 1; b < places_.size(); ++b) {
+      std::size_t i = a, j = b;
+      if (Chosen(places_[i]).landmark > Chosen(places_[j]).landmark) std::swap(i, j);
+      const double gain = GainOf(i, j);
+      if (std::isnan(gain)) continue;
+      pairs.push_back({gain, {{i, j}}});
+      const int one = Chosen(places_[i]).landmark, other = Chosen(places_[j]).landmark;
+      if (one == other) continue;
+      auto& [of_both, both] = of_landmarks[{one, other}];
+      of_both += gain;
+      both.emplace_back(i, j);
+    }
+  }
+  for (auto& [unused, both] : of_landmarks) {
+    if (both.second.size() > 1) pairs.push_back(std::move(both));
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<ExchangedPair> first;
+  for (auto& [unused, pair] : pairs) {
+    if (first.size() < kMostPairs) first.push_back(std::move(pair));
+  }
+  return first;
+}
+
+double NameJudge::SumOfDistances(const ExchangedPair& pairs) const {
+  double sum = 0;
+  for (const auto& [i, j] : pairs) {
+    for (const std::size_t p : {i, j}) {
+      const double distance = Distance(places_[p].label, places_[p].markers[places_[p].chosen]);
+      if (!std::isnan(distance)) sum += distance;
+    }
+  }
+  return sum;
+}
+
+void NameJudge::Exchange(const ExchangedPair& pairs) {
+  for (const auto& [i, j] : pairs) ExchangeReadings(&places_[i], &places_[j], 1);
+}
+
+void NameJudge::ExchangeReadings(Hypothesis* one, Hypothesis* other, std::size_t markers_of_one) {
+  const Hypothesis was_one = *one, was_other = *other;
+  const LabelReading read_one = Chosen(*one), read_other = Chosen(*other);
+  const auto take = [&](Hypothesis* taker, const LabelReading& reading, const Hypothesis& of) {
+    std::vector<LabelReading>& readings = named_.labels[Ix(taker->label)].readings;
+    readings.push_back(reading);
+    const auto first = of.markers.begin() + static_cast<std::ptrdiff_t>(markers_of_one * of.chosen);
+    taker->markers.insert(taker->markers.end(), first,
+                          first + static_cast<std::ptrdiff_t>(markers_of_one));
+    taker->chosen = readings.size() - 1;
+  };
+  take(one, read_other, was_other);
+  take(other, read_one, was_one);
+}
+
+double NameJudge::TryExchange(const ExchangedPair& pairs, double height) {
+  const double distance = SumOfDistances(pairs), all = MeanDistance();
+  Exchange(pairs);
+  Pose(height, {});
+  const double gain = (all - MeanDistance()) * static_cast<double>(places_.size());
+  const bool is_right =
+      SumOfDistances(pairs) < (1 - kRemoved) * distance && gain > kRemoved * distance;
+  return is_right ? gain : 0;
+}
+
+void NameJudge::ExchangePairs(double height) {
+  const auto state = [&] {
+    std::vector<std::vector<LabelReading>> readings;
+    for (const NamedLabel& label : named_.labels) readings.push_back(label.readings);
+    return std::tuple(places_, postures_, p_WM_, std::move(readings));
+  };
+  const auto restore = [&](const auto& kept) {
+    std::vector<std::vector<LabelReading>> readings;
+    std::tie(places_, postures_, p_WM_, readings) = kept;
+    for (std::size_t l = 0; l < readings.size(); ++l) named_.labels[l].readings = readings[l];
+  };
+  std::set<std::size_t> exchanged;
+  for (int i = 0; i < kMostExchanges; ++i) {
+    const auto before = state();
+    auto best = before;
+    ExchangedPair found;
+    double most = 0;
+    for (const ExchangedPair& pairs : DoubtfulPairs()) {
+      const bool is_done = std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
+        return exchanged.contains(pair.first) || exchanged.contains(pair.second);
+      });
+      if (is_done) continue;
+      const double gain = TryExchange(pairs, height);
+      if (gain > most) {
+        most = gain;
+        best = state();
+        found = pairs;
+      }
+      restore(before);
+    }
+    restore(best);
+    if (found.empty()) return;
+    for (const auto& [one, other] : found) {
+      TellExchange(places_[one], places_[other]);
+      exchanged.insert({one, other});
+    }
+  }
+}
+
+void NameJudge::TellExchange(const Hypothesis& a, const Hypothesis& b) {
+  NamedLabel &one = named_.labels[Ix(a.label)], &other = named_.labels[Ix(b.label)];
+  one.note = fmt::format("exchanged with {}", other.label);
+  other.note = fmt::format("exchanged with {}", one.label);
+  one.is_contradicted = other.is_contradicted = true;
+}
+
+void NameJudge::ChooseSegments() {
+  for (Hypothesis& one : clusters_) {
+    const std::vector<LabelReading>& readings = named_.labels[Ix(one.label)].readings;
+    const LabelReading named = Chosen(one);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+      const int marker = one.markers[kClusterMarkers * r];
+      if (marker < 0 || readings[r].side != named.side) continue;
+      const double distance = Distance(one.label, marker);
+      if (!(distance < least)) continue;
+      least = distance;
+      one.chosen = r;
+    }
+  }
+}
+
+bool NameJudge::ClusterPlace::IsWorn() const {
+  return stray <= kMostClusterStray && away <= kFarthestWorn;
+}
+
+std::optional<NameJudge::ClusterPlace> NameJudge::FindPlace(int label, int marker,
+                                                            double height) const {
+  if (marker < 0) return std::nullopt;
+  std::vector<Vector3d> places;
+  for (std::size_t f = 0; f < frames_.size(); ++f) {
+    const Vector3d p = recording_.frame(frames_[f]).col(label);
+    if (!p.allFinite()) continue;
+    const Matrix3Xd& at = p_WM_[f];
+    const Vector3d origin = at.col(marker + 1);
+    Eigen::Matrix3d axes;
+    for (int a = 0; a < 3; ++a) axes.col(a) = (at.col(marker + 2 + a) - origin) / height;
+    places.emplace_back(axes.transpose() * (p - origin) / height);
+  }
+  if (places.empty()) return std::nullopt;
+  ClusterPlace found;
+  for (int a = 0; a < 3; ++a) {
+    std::vector<double> values;
+    values.reserve(places.size());
+    for (const Vector3d& p : places) values.push_back(p[a]);
+    found.p_SM[a] = Median(values);
+  }
+  std::vector<double> strays;
+  strays.reserve(places.size());
+  for (const Vector3d& p : places) strays.push_back(height * (p - found.p_SM).norm());
+  found.stray = Median(strays);
+  found.away = height * (found.p_SM - model_->markers()[Ix(marker)].p_SM).norm();
+  return found;
+}
+
+void NameJudge::ExchangeClusters(double height) {
+  const auto is_worn = [&](const Hypothesis& label, const Hypothesis& as) {
+    const auto place = FindPlace(label.label, as.markers[FirstMarkerOf(as)], height);
+    return !place || place->IsWorn();
+  };
+  for (std::size_t i = 0; i < clusters_.size(); ++i) {
+    for (std::size_t j = i + 1; j < clusters_.size(); ++j) {
+      Hypothesis &one = clusters_[i], &other = clusters_[j];
+      if (is_worn(one, one) || is_worn(other, other)) continue;
+      if (!is_worn(one, other) || !is_worn(other, one)) continue;
+      ExchangeReadings(&one, &other, kClusterMarkers);
+      TellExchange(one, other);
+    }
+  }
+}
+
+void NameJudge::PlaceClusters(double height) {
+  ExchangeClusters(height);
+  for (const Hypothesis& one : clusters_) {
+    const auto place = FindPlace(one.label, one.markers[FirstMarkerOf(one)], height);
+    if (place) PlaceCluster(one, *place);
+  }
+}
+
+void NameJudge::PlaceCluster(const Hypothesis& one, const ClusterPlace& place) {
+  NamedLabel& label = named_.labels[Ix(one.label)];
+  const auto own = std::find_if(named_.set.places.begin(), named_.set.places.end(),
+                                [&](const auto& p) { return p.marker == label.marker; });
+  if (own == named_.set.places.end()) return;
+  if (!place.IsWorn()) {
+    label.note =
+        place.stray > kMostClusterStray
+            ? fmt::format("moves by {:.0f} mm on the {}", kMillimetres * place.stray, label.part)
+            : fmt::format("{:.0f} mm from the {}", kMillimetres * place.away, label.part);
+    label.marker.clear();
+    label.is_contradicted = true;
+    return;
+  }
+  own->p_SM = place.p_SM;
+  is_placed_[Ix(one.label)] = true;
+  for (MarkerPair& pair : named_.set.pairs) {
+    if (pair.target == label.marker) pair.noise_scale = 1 + place.stray / kMostClusterStray;
   }
 }
 

@@ -16,8 +16,8 @@ namespace mmm_converter {
 /// A label on the way to its meaning.
 struct Hypothesis {
   int label = 0;  ///< of the named markers and of the recording
-  /// Of its readings, of the judge's model; -1: the model has none. Of a cluster, five (its place,
-  /// origin and axes of its segment) of each.
+  /// The markers of its readings in the judge's model; -1: the model has none. A cluster has five
+  /// for each (its place, origin and axes of its segment).
   std::vector<int> markers;
   std::size_t chosen = 0;  ///< of the readings
   bool is_out = false;
@@ -25,11 +25,8 @@ struct Hypothesis {
 
 constexpr std::size_t kClusterMarkers = 5;
 
-/// Of a cluster, the first marker of the reading that was chosen.
+/// The first marker of the reading that was chosen for a cluster.
 inline std::size_t FirstMarkerOf(const Hypothesis& one) { return kClusterMarkers * one.chosen; }
-
-/// "arms", "legs" or neither.
-std::string_view LimbsOf(const Landmark& landmark);
 
 /// Postures of some frames of a recording, fitted to what the labels' names mean, and what they say
 /// of the names; see UnderstandLabels.
@@ -61,7 +58,7 @@ class NameJudge {
 
   /// What is named left may be worn right.
   void AddMirroredReadings();
-  /// Of a place, a marker for each reading; of a cluster, four more that show how its segment lies.
+  /// Makes a marker for each reading, and for clusters four more that show how the segment lies.
   void MakeModel();
   void ChooseFrames();
 
@@ -94,8 +91,8 @@ class NameJudge {
   /// Labels of places that are exchanged together.
   using ExchangedPair = std::vector<std::pair<std::size_t, std::size_t>>;
   std::vector<ExchangedPair> DoubtfulPairs() const;
-  /// Of two places: by how much nearer they are to each other's in the postures of their own [m];
-  /// NaN where they are not exchanged.
+  /// By how much nearer two places are to each other's in the postures of their own [m]; NaN where
+  /// they are not exchanged.
   double GainOf(std::size_t i, std::size_t j) const;
   /// Returns what it gains, all labels together [m]; 0: it is wrong.
   double TryExchange(const ExchangedPair& pairs, double height);
@@ -106,7 +103,7 @@ class NameJudge {
 
   /// Clusters whose names can mean several segments are on the one that is nearest.
   void ChooseSegments();
-  /// Of the labels that are far from their places, the farther half gets other meanings or none.
+  /// Gives the farther half of the labels that are far from their places other meanings or none.
   bool Reconsider();
   bool Reconsider(Hypothesis* one);
   /// Whether the name itself can mean several places.

@@ -35,9 +35,7 @@ std::vector<bool> JointsOfFoot(const KinematicModel& model, int foot) {
   while (segments[top].joint < 0 && segments[top].parent > 0) top = segments[top].parent;
   for (int i = foot; i > 0; i = segments[i].parent) mark(i);
   for (int i = 0; i < static_cast<int>(segments.size()); ++i) {
-    for (int above = i; above > 0; above = segments[above].parent) {
-      if (above == top) mark(i);
-    }
+    if (top > 0 && model.IsBelow(i, top)) mark(i);
   }
   return is_of;
 }

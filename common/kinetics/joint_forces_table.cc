@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/io/tables/column_names.h"
-#include "common/io/tables/known_frames.h"
+#include "common/io/tables/table_rows.h"
 #include "common/io/xml/xml_text.h"
 #include "common/kinetics/inverse_dynamics.h"
 #include "common/support/units.h"
@@ -28,18 +28,6 @@ constexpr double kReferenceExternal = 925;
 // What OpenSim calls acceptable after its residual reduction [N, N m].
 constexpr double kReducedForcePeak = 25, kReducedForceRms = 15;
 constexpr double kReducedMomentPeak = 75, kReducedMomentRms = 50;
-
-void AppendCells(const Eigen::VectorXd& values, char before, const char* unknown,
-                 std::string* out) {
-  for (const double value : values) {
-    *out += before;
-    if (std::isfinite(value)) {
-      AppendDecimal(value, kDecimals, out);
-    } else {
-      *out += unknown;
-    }
-  }
-}
 
 std::vector<std::string> NamesWith(const JointForces& found, const char* of_moments,
                                    const char* of_forces) {
@@ -120,45 +108,32 @@ std::string JsonOfLeg(const JointForces& found, std::size_t i) {
 }  // namespace
 
 TextPieces FormatJointForcesSto(const JointForces& found) {
-  return [&found](const TextSink& sink) {
-    PieceWriter pieces(sink);
-    const KnownFrames frames = FramesWithValues(found.forces);
-    *pieces.text() += fmt::format(
-        "Inverse Dynamics Generalized Forces\nversion=1\nnRows={}\nnColumns={}\ninDegrees=no\n"
-        "endheader\ntime\t{}\n",
-        frames.count(), found.names.size() + 1,
-        fmt::join(NamesWith(found, "_moment", "_force"), "\t"));
-    for (int k = frames.begin; k < frames.end; ++k) {
-      AppendDecimal(found.time(k), kSecondDecimals, pieces.text());
-      AppendCells(found.forces.col(k), '\t', "nan", pieces.text());
-      *pieces.text() += '\n';
-      pieces.EndPart();
-    }
-    pieces.Flush();
-  };
+  const TableRows rows = RowsWithValues(found.forces);
+  const std::string header = fmt::format(
+      "Inverse Dynamics Generalized Forces\nversion=1\nnRows={}\nnColumns={}\ninDegrees=no\n"
+      "endheader\ntime\t{}\n",
+      rows.count(), found.names.size() + 1, fmt::join(NamesWith(found, "_moment", "_force"), "\t"));
+  return TableText(header, rows, [&found](int k, std::string* out) {
+    AppendDecimal(found.time(k), kSecondDecimals, out);
+    AppendCells(found.forces.col(k), '\t', kDecimals, "nan", out);
+  });
 }
 
 TextPieces FormatJointForcesCsv(const JointForces& found) {
-  return [&found](const TextSink& sink) {
-    PieceWriter pieces(sink);
-    const std::vector<std::string> names = CsvColumnNames(NamesWith(found, "_Nm", "_N"));
-    *pieces.text() += fmt::format("time_s,{}", fmt::join(names, ","));
-    if (found.deviations.size() > 0)
-      *pieces.text() += ",sd_" + fmt::format("{}", fmt::join(names, ",sd_"));
-    for (std::size_t i = 0; i < std::size(kComponents); ++i) {
-      *pieces.text() += fmt::format(",residual_{}_{}", kComponents[i], i < 3 ? "N" : "Nm");
-    }
-    *pieces.text() += '\n';
-    for (int k = 0; k < found.num_frames(); ++k) {
-      AppendDecimal(found.time(k), kSecondDecimals, pieces.text());
-      AppendCells(found.forces.col(k), ',', "", pieces.text());
-      if (found.deviations.size() > 0) AppendCells(found.deviations.col(k), ',', "", pieces.text());
-      AppendCells(found.residuals.col(k), ',', "", pieces.text());
-      *pieces.text() += '\n';
-      pieces.EndPart();
-    }
-    pieces.Flush();
-  };
+  const std::vector<std::string> names = CsvColumnNames(NamesWith(found, "_Nm", "_N"));
+  std::string header = fmt::format("time_s,{}", fmt::join(names, ","));
+  const bool has_deviations = found.deviations.size() > 0;
+  if (has_deviations) header += fmt::format(",sd_{}", fmt::join(names, ",sd_"));
+  for (std::size_t i = 0; i < std::size(kComponents); ++i) {
+    header += fmt::format(",residual_{}_{}", kComponents[i], i < 3 ? "N" : "Nm");
+  }
+  return TableText(header + '\n', {0, found.num_frames()},
+                   [&found, has_deviations](int k, std::string* out) {
+                     AppendDecimal(found.time(k), kSecondDecimals, out);
+                     AppendCsvCells(found.forces.col(k), kDecimals, out);
+                     if (has_deviations) AppendCsvCells(found.deviations.col(k), kDecimals, out);
+                     AppendCsvCells(found.residuals.col(k), kDecimals, out);
+                   });
 }
 
 std::string FormatJointForcesJson(const JointForces& found) {

@@ -43,6 +43,13 @@ Vector3d ContinuousRpy(const Vector3d& rpy, const Vector3d& previous) {
   return (a - previous).squaredNorm() <= (b - previous).squaredNorm() ? a : b;
 }
 
+const Vector3d& RpySeries::Next(const Eigen::Quaterniond& orientation) {
+  const Vector3d principal = RpyFromRotation(orientation.toRotationMatrix());
+  rpy_ = is_first_ ? principal : ContinuousRpy(principal, rpy_);
+  is_first_ = false;
+  return rpy_;
+}
+
 Quaterniond Exp(const Vector3d& w) {
   const double angle = w.norm();
   // sin(a/2)/a by its series below 1e-4: the next term is 1e-18 relative.

@@ -16,6 +16,16 @@ Eigen::Vector3d RpyFromRotation(const Eigen::Matrix3d& R);
 /// sequence has no jumps of 2 pi nor between the two Euler branches.
 Eigen::Vector3d ContinuousRpy(const Eigen::Vector3d& rpy, const Eigen::Vector3d& previous);
 
+/// Roll, pitch and yaw of one orientation after the other, each near to the one before.
+class RpySeries {
+ public:
+  const Eigen::Vector3d& Next(const Eigen::Quaterniond& orientation);
+
+ private:
+  Eigen::Vector3d rpy_ = Eigen::Vector3d::Zero();
+  bool is_first_ = true;
+};
+
 /// SO(3) exponential: the unit quaternion that rotates by |w| radians about w.
 Eigen::Quaterniond Exp(const Eigen::Vector3d& w);
 

@@ -29,8 +29,8 @@ bool IsFinite(const Segment& s) {
          (s.function == nullptr || s.function->IsFinite());
 }
 
-/// Of a joint that follows another, or moves by a function of its coordinate: where its range ends,
-/// and at rest.
+/// Whether a joint that follows another, or moves by a function of its coordinate, is within bounds
+/// where its range ends, and at rest.
 bool IsFunctionWithin(const Segment& s) {
   if (s.function == nullptr) return true;
   const double reach = s.reach > 0 ? s.reach : EIGEN_PI;
@@ -214,6 +214,11 @@ int KinematicModel::FindJoint(const std::string& name) const {
 }
 
 int KinematicModel::FindMarker(const std::string& name) const { return Find(markers_, name); }
+
+bool KinematicModel::IsBelow(int segment, int above) const {
+  while (segment > above) segment = segments_[segment].parent;
+  return segment == above;
+}
 
 double KinematicModel::total_mass() const {
   double mass = 0;

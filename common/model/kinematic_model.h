@@ -111,6 +111,9 @@ class KinematicModel {
   int FindJoint(const std::string& name) const;    ///< -1 if there is none
   int FindMarker(const std::string& name) const;   ///< -1 if there is none
 
+  /// Whether a segment hangs on `above` by any joints, or is it.
+  bool IsBelow(int segment, int above) const;
+
   double total_mass() const;  ///< [kg]
 
  private:

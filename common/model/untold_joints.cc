@@ -25,11 +25,6 @@ struct Part {
   }
 };
 
-bool IsOn(const KinematicModel& model, int segment, int part) {
-  while (segment > part) segment = model.segments()[static_cast<std::size_t>(segment)].parent;
-  return segment == part;
-}
-
 }  // namespace
 
 std::vector<int> UntoldJoints(const KinematicModel& model, const std::vector<MarkerIx>& markers) {
@@ -43,10 +38,10 @@ std::vector<int> UntoldJoints(const KinematicModel& model, const std::vector<Mar
     Part whole, forefoot;
     for (const MarkerIx index : markers) {
       const ModelMarker& marker = model.markers()[index];
-      if (!IsOn(model, marker.segment, foot)) continue;
+      if (!model.IsBelow(marker.segment, foot)) continue;
       const double across = (X_WS[static_cast<std::size_t>(marker.segment)] * marker.p_SM).x();
       whole.Add(across);
-      if (IsOn(model, marker.segment, front)) forefoot.Add(across);
+      if (model.IsBelow(marker.segment, front)) forefoot.Add(across);
     }
     const double apart =
         kAcross * model.segments()[static_cast<std::size_t>(ankle)].X_PF.translation().norm();

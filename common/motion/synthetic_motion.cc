@@ -20,26 +20,7 @@ using Eigen::Vector3d;
 constexpr double kRate = 100;
 constexpr double kPi = std::numbers::pi;
 
-/// Values of a channel at keyframe times. Channels: "roll", "pitch", "yaw" of the root and joints
-/// [rad]. Joints that no channel moves rest in a relaxed posture.
-using Keyframes = std::map<std::string, std::vector<double>>;
-
-enum class Support { kToes, kFingertips, kPalms };
-
-/// From `begin` until the next one: nodes whose mean stands still.
-struct Contact {
-  double begin;  // [s]; the support is handed over during kHandOver around it
-  std::vector<std::string> nodes;
-  Support support;
-};
-constexpr double kHandOver = 0.3;  // [s]
-
-struct Script {
-  int num_frames = 0;
-  std::vector<double> times;
-  Keyframes keyframes;
-  std::vector<Contact> contacts;
-};
+constexpr double kHandOver = 0.3;  // [s], around the begin of a contact
 
 /// 0 to 1 with minimum jerk.
 double MinimumJerk(double s) {
@@ -99,7 +80,7 @@ int NodeIndex(const KinematicModel& model, const std::string& name) {
 /// A scripted motion on one model.
 class Choreography {
  public:
-  Choreography(const KinematicModel& model, Script script)
+  Choreography(const KinematicModel& model, MotionScript script)
       : model_(model), script_(std::move(script)), rest_(ZeroPosture(model)) {
     for (const std::string& name : KitJointNames()) {
       NodeIndex(model, name);
@@ -108,9 +89,12 @@ class Choreography {
     }
     const auto X_WS = SegmentPoses(model, rest_);
     const double sole = X_WS[NodeIndex(model, "LeftFootHeight_joint")].translation().z();
-    heights_[Support::kToes] = X_WS[NodeIndex(model, "LFx_joint")].translation().z() - sole;
-    heights_[Support::kFingertips] = -0.2 * sole;  // the wrist above the tips of a straight hand
-    heights_[Support::kPalms] = -0.055 * sole;     // the wrist above a hand that lies on the floor
+    heights_[MotionScript::Support::kToes] =
+        X_WS[NodeIndex(model, "LFx_joint")].translation().z() - sole;
+    heights_[MotionScript::Support::kFingertips] =
+        -0.2 * sole;  // the wrist above the tips of a straight hand
+    heights_[MotionScript::Support::kPalms] =
+        -0.055 * sole;  // the wrist above a hand that lies on the floor
     PlaceContacts();
   }
 
@@ -184,10 +168,10 @@ class Choreography {
   }
 
   const KinematicModel& model_;
-  Script script_;
+  MotionScript script_;
   Posture rest_;
   std::vector<int> joints_;
-  std::map<Support, double> heights_;  // of a contact's nodes above the floor [m]
+  std::map<MotionScript::Support, double> heights_;  // of a contact's nodes above the floor [m]
   std::vector<Vector3d> places_;
 };
 
@@ -209,6 +193,10 @@ std::vector<double> Negated(std::vector<double> values) {
 
 }  // namespace
 
+PoseTrajectory PlayScript(const KinematicModel& model, MotionScript script) {
+  return Choreography(model, std::move(script)).Play();
+}
+
 PoseTrajectory MakeHandstand(const KinematicModel& model) {
   // The way up; down is the same way back with left and right exchanged. The values put the centre
   // of pressure between what touches the floor, as if the body had to keep its balance.
@@ -216,7 +204,7 @@ PoseTrajectory MakeHandstand(const KinematicModel& model) {
   const std::vector<double> times = {0, 0.8, 1.4, 1.9, 2.25, 2.6, 2.95, 3.37};
   constexpr double kHandsDown = 2.2;  // the hands take over from the right foot [s]
   const double end = 2 * times.back();
-  Script script;
+  MotionScript script;
   script.num_frames = 675;
   script.times = times;
   for (std::size_t i = times.size() - 1; i-- > 0;) script.times.push_back(end - times[i]);
@@ -253,79 +241,14 @@ PoseTrajectory MakeHandstand(const KinematicModel& model) {
       {"RKx_joint", UpAndDown(last_knee, first_knee)},
       {"RAx_joint", UpAndDown(last_ankle, first_ankle)},
   };
-  script.contacts = {{0, kRightFoot, Support::kToes},
-                     {kHandsDown, kHands, Support::kPalms},
-                     {end - kHandsDown, kLeftFoot, Support::kToes}};
-  return Choreography(model, script).Play();
-}
-
-PoseTrajectory MakeKickedHandstand(const KinematicModel& model) {
-  Script script;
-  script.num_frames = 675;
-  // stand, arms up, step, lunge, hands down, kick, nearly up, up, hold, tilt, legs down, foot down,
-  // lunge, step back, stand
-  script.times = {0, 1.0, 1.4, 1.8, 2.4, 2.75, 3.1, 3.45, 4.0, 4.35, 4.75, 5.1, 5.65, 6.1, 6.55};
-  const double up = -183 * kPi / 180;
-  const std::vector<double> arms = {0,    2.7,  2.75, 2.7, 2.0, 2.3, 2.95, 3.12,
-                                    3.12, 2.95, 2.3,  2.0, 2.5, 1.6, 0};
-  const std::vector<double> elbows = {.2, .15, .15, .15, .1,  .1, .1, .1,
-                                      .1, .1,  .1,  .1,  .15, .3, .2};
-  script.keyframes = {
-      {"roll", {0, .03, .03, -.15, -1.15, -2.0, -2.85, -3.15, up, -3.0, -2.1, -1.15, -.15, 0, 0}},
-      {"pitch", {0, 0, .03, 0, 0, .02, .04, .02, 0, -.03, -.03, 0, 0, -.03, 0}},
-      {"yaw", {0, 0, .05, .05, 0, -.05, -.03, 0, .05, .05, 0, 0, -.05, -.03, 0}},
-      {"BPx_joint", {0, .05, .05, -.05, -.35, -.2, -.05, 0, .05, 0, -.2, -.35, -.1, 0, 0}},
-      {"BTx_joint", {0, .05, .05, -.05, -.3, -.15, -.05, 0, .05, 0, -.15, -.3, -.1, 0, 0}},
-      {"BLNx_joint", {0, .1, .1, 0, .1, .15, .15, .15, .15, .15, .15, .1, 0, 0, 0}},
-      {"BUNx_joint", {0, .05, .05, 0, .2, .3, .35, .35, .35, .35, .3, .2, 0, 0, 0}},
-      {"LSx_joint", arms},
-      {"RSx_joint", arms},
-      {"LEx_joint", elbows},
-      {"REx_joint", elbows},
-      {"LHx_joint",
-       {0.05, -.03, -.1, -.3, -.35, -.6, -.35, -.02, .05, -.2, -.5, -.35, -.3, -.05, .05}},
-      {"LKx_joint", {-.1, -.1, -.1, -.2, -.3, -.3, -.15, -.1, -.1, -.15, -.3, -.3, -.2, -.15, -.1}},
-      {"LAx_joint", {.05, .1, .15, .1, -.3, -.55, -.6, -.6, -.6, -.6, -.55, -.3, .1, .15, .05}},
-      {"RHx_joint", {0.05, 0, .9, .7, 1.6, 1.4, .7, .1, 0, .7, 1.4, 1.6, .7, .8, .05}},
-      {"RKx_joint", {-.1, -.1, -.9, -.5, -.95, -.7, -.4, -.1, -.1, -.3, -.6, -.95, -.5, -.9, -.1}},
-      {"RAx_joint", {.05, .07, .1, -.05, .48, -.3, -.6, -.6, -.6, -.6, -.3, .48, -.05, .1, .05}},
-  };
-  script.contacts = {{0, kLeftFoot, Support::kToes},
-                     {1.85, kRightFoot, Support::kToes},
-                     {2.4, kHands, Support::kFingertips},
-                     {5.05, kRightFoot, Support::kToes},
-                     {5.6, kLeftFoot, Support::kToes}};
-  return Choreography(model, script).Play();
-}
-
-PoseTrajectory MakeCartwheel(const KinematicModel& model) {
-  Script script;
-  script.num_frames = 400;
-  // stand, arms and legs apart, hand down, upside down, foot down, upright, stand
-  script.times = {0, 0.9, 1.6, 2.15, 2.7, 3.4, 3.95};
-  const double quarter = 1.33;
-  script.keyframes = {
-      {"pitch", {0, .1, quarter, kPi, 2 * kPi - quarter, 2 * kPi - .1, 2 * kPi}},
-      {"BPy_joint", {0, 0, .25, 0, -.25, 0, 0}},
-      {"BTy_joint", {0, 0, .2, 0, -.2, 0, 0}},
-      {"LSy_joint", {.15, 2.4, 2.65, 2.7, 2.65, 2.4, .15}},
-      {"RSy_joint", {-.15, -2.4, -2.65, -2.7, -2.65, -2.4, -.15}},
-      {"LEx_joint", {.2, .15, .1, .1, .1, .15, .2}},
-      {"REx_joint", {.2, .15, .1, .1, .1, .15, .2}},
-      {"LHy_joint", {0, .4, .6, .7, .6, .4, 0}},
-      {"RHy_joint", {0, -.4, -.6, -.7, -.6, -.4, 0}},
-      {"LAx_joint", {0, 0, -.4, -.5, -.3, 0, 0}},
-      {"RAx_joint", {0, 0, -.3, -.5, -.4, 0, 0}},
-  };
-  script.contacts = {{0, kRightFoot, Support::kToes},
-                     {1.6, {"RWx_joint"}, Support::kFingertips},
-                     {2.15, {"LWx_joint"}, Support::kFingertips},
-                     {2.7, kLeftFoot, Support::kToes}};
-  return Choreography(model, script).Play();
+  script.contacts = {{0, kRightFoot, MotionScript::Support::kToes},
+                     {kHandsDown, kHands, MotionScript::Support::kPalms},
+                     {end - kHandsDown, kLeftFoot, MotionScript::Support::kToes}};
+  return PlayScript(model, std::move(script));
 }
 
 PoseTrajectory MakeRaisedKnee(const KinematicModel& model) {
-  Script script;
+  MotionScript script;
   script.num_frames = 200;
   script.times = {0, 0.8, 1.2, 2};
   script.keyframes = {
@@ -333,8 +256,8 @@ PoseTrajectory MakeRaisedKnee(const KinematicModel& model) {
       {"RHx_joint", {0, 1.2, 1.2, 0}},       {"RKx_joint", {-.1, -1.4, -1.4, -.1}},
       {"RSy_joint", {-.15, -.4, -.4, -.15}},
   };
-  script.contacts = {{0, kLeftFoot, Support::kToes}};
-  return Choreography(model, script).Play();
+  script.contacts = {{0, kLeftFoot, MotionScript::Support::kToes}};
+  return PlayScript(model, std::move(script));
 }
 
 }  // namespace mmm_converter

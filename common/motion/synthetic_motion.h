@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,16 +15,30 @@ namespace mmm_converter {
 // The floor is z = 0, the subject looks along y.
 /// @throws Error where the model lacks one of KitJointNames() or a contact node of MMM's model.
 
+/// A motion as its keyframes tell it.
+struct MotionScript {
+  enum class Support { kToes, kFingertips, kPalms };
+
+  /// From `begin` until the next one: nodes whose mean stands still.
+  struct Contact {
+    double begin;  ///< [s]; the support is handed over around it
+    std::vector<std::string> nodes;
+    Support support;
+  };
+
+  int num_frames = 0;
+  std::vector<double> times;  ///< of the keyframes [s]
+  /// Values at them: "roll", "pitch", "yaw" of the root and joints [rad]. Joints that no channel
+  /// moves rest in a relaxed posture.
+  std::map<std::string, std::vector<double>> keyframes;
+  std::vector<Contact> contacts;
+};
+
+PoseTrajectory PlayScript(const KinematicModel& model, MotionScript script);
+
 /// 675 frames: hands to the floor, one leg after the other up to a handstand (root roll to -183
 /// degrees), and back to standing. The centre of pressure stays between what touches the floor.
 PoseTrajectory MakeHandstand(const KinematicModel& model);
-
-/// 675 frames: step, hands to the floor, kick up to a handstand (root roll to -183 degrees), and
-/// back to standing; without regard to balance.
-PoseTrajectory MakeKickedHandstand(const KinematicModel& model);
-
-/// 400 frames: a cartwheel to the right (root pitch from 0 through 90 to 360 degrees).
-PoseTrajectory MakeCartwheel(const KinematicModel& model);
 
 /// 200 frames: from standing on the left leg, right knee up, left arm ahead, right elbow bent, and
 /// back: no side and no direction looks like another.

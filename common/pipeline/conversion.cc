@@ -63,7 +63,7 @@ void CheckHasSubject(const ConversionRequest& request, const ConversionPlan& pla
   }
 }
 
-// Of one of several motions of a file the request's person and model are those of its persons.
+// Where a file has several motions, the request's person and model are those of its persons.
 ObjectRequest ObjectRequestOf(const ConversionRequest& request, const ConversionPlan& plan,
                               bool is_one_of_several) {
   std::error_code failure;
@@ -299,7 +299,9 @@ ConversionReport RunConversion(const ConversionRequest& request, const ReadBefor
                                const std::function<bool(int, int)>& progress) {
   ConversionPlan plan = PlanConversion(request, read_before);
   CheckOutputs(request, {&plan});
-  return CarryOut(std::move(plan), progress);
+  ConversionReport report = CarryOut(std::move(plan), progress);
+  StudyExports(request.exports, &report);
+  return report;
 }
 
 void WriteObjectModel(const ConversionPlan& plan) {
@@ -312,7 +314,6 @@ void WriteObjectModel(const ConversionPlan& plan) {
 
 void WriteConversion(const ConversionRequest& request, ConversionReport* report) {
   FilesTogether files;
-  StudyExports(request.exports, report);
   WriteObjectModel(report->plan);
   WriteMotions(request, {report});
   WritePerson(report->plan);

@@ -130,7 +130,7 @@ ConversionReport CarryOut(ConversionPlan plan, const std::function<bool(int, int
 /// The figures and the verdict of a report that has all else.
 void MeasureAndJudge(ConversionReport* report);
 
-/// PlanConversion, CheckOutputs and CarryOut. read_before: by LabelFirst.
+/// PlanConversion, CheckOutputs, CarryOut and StudyExports. read_before: by LabelFirst.
 ConversionReport RunConversion(const ConversionRequest& request, const ReadBefore& read_before,
                                const std::function<bool(int, int)>& progress);
 

@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "common/angles/angle_table.h"
 #include "common/io/tables/bvh_writer.h"
-#include "common/io/tables/covariance_npz.h"
-#include "common/io/tables/mot_writer.h"
 #include "common/io/tables/npz_writer.h"
 #include "common/io/tables/osim_tables.h"
 #include "common/io/tables/pose_table.h"
@@ -18,6 +19,7 @@
 #include "common/io/tables/trc_writer.h"
 #include "common/motion/anatomical_angles.h"
 #include "common/motion/marker_synthesis.h"
+#include "common/motion/pose_trajectory.h"
 #include "common/pipeline/conversion.h"
 #include "common/pipeline/force_exports.h"
 #include "common/pipeline/pose_output.h"
@@ -25,9 +27,40 @@
 #include "common/retarget/smpl_motion.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
+#include "common/support/text_pieces.h"
 
 namespace mmm_converter {
 namespace {
+
+/// Covariances as arrays of a .npz file, float64: names (n): root_x, root_y, root_z [m], in the
+/// world; root_about_x, root_about_y, root_about_z, about the root's own axes, and the joints
+/// [rad]; frame (k), from 0; time (k) [s]; covariance (k, n, n).
+/// @throws Error where the file would have 4 GiB or more.
+TextPieces FormatCovarianceNpz(const PoseTrajectory& trajectory,
+                               const std::vector<PoseCovariance>& covariances) {
+  std::vector<std::string> names = {"root_x",       "root_y",       "root_z",
+                                    "root_about_x", "root_about_y", "root_about_z"};
+  names.insert(names.end(), trajectory.joint_names.begin(), trajectory.joint_names.end());
+  const auto k = static_cast<std::int64_t>(covariances.size());
+  const auto n = static_cast<std::int64_t>(names.size());
+  NpyArray frames = {"frame", {k}, {}, {}};
+  NpyArray times = {"time", {k}, {}, {}};
+  NpyArray values = {"covariance", {k, n, n}, {}, {}};
+  values.numbers.reserve(k * n * n);
+  for (const PoseCovariance& one : covariances) {
+    frames.numbers.push_back(one.frame);
+    times.numbers.push_back(trajectory.time(one.frame));
+    const double* const numbers = one.covariance.data();
+    values.numbers.insert(values.numbers.end(), numbers, numbers + one.covariance.size());
+  }
+  const auto arrays = std::make_shared<const std::vector<NpyArray>>(
+      std::vector<NpyArray>{{"names", {n}, {}, std::move(names)},
+                            std::move(frames),
+                            std::move(times),
+                            std::move(values)});
+  const TextPieces file = FormatNpz(*arrays);
+  return [arrays, file](const TextSink& sink) { file(sink); };
+}
 
 void WriteCsv(const std::string& file, const ConversionReport& report) {
   WriteFileAtomically(file, FormatTrajectoryCsv(report.result.trajectory));

@@ -27,11 +27,6 @@ void MarkAbove(const KinematicModel& model, int segment, std::vector<bool>* join
   }
 }
 
-bool IsBelow(const KinematicModel& model, int segment, int above) {
-  while (segment > above) segment = model.segments()[segment].parent;
-  return segment == above;
-}
-
 std::vector<bool> JointsOfLegs(const KinematicModel& model, const RobotBody& body) {
   std::vector<bool> joints(model.num_joints());
   for (std::size_t i = 0; i < 2 && body.feet; ++i) {
@@ -144,7 +139,7 @@ bool BendFeet(const RobotBody& body, KinematicModel* model) {
   for (const int joint : body.held) {
     const int segment = model->joint_segment(joint);
     for (std::size_t i = 0; i < 2 && body.feet; ++i) {
-      if (!IsBelow(*model, segment, (*body.feet)[i].segment)) continue;
+      if (!model->IsBelow(segment, (*body.feet)[i].segment)) continue;
       bent.segments[static_cast<std::size_t>(segment)].rest = body.rest[joint];
       are_bent = true;
     }

@@ -6,18 +6,56 @@
 #include <cstddef>
 #include <tuple>
 #include <utility>
+#include <vector>
 
+#include "common/convert/tracking_setup.h"
+#include "common/fit/posture_fit.h"
 #include "common/math/statistics.h"
 #include "common/model/forward_kinematics.h"
+#include "common/model/joint_limits.h"
 #include "common/model/kit_joints.h"
 #include "common/model/marker_kinematics.h"
 #include "common/model/posture.h"
 #include "common/motion/flat_frames.h"
+#include "common/motion/marker_sequence.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/study/knee_limits.h"
+#include "common/motion/pose_trajectory.h"
+#include "common/support/units.h"
 
 namespace mmm_converter {
 namespace {
+
+constexpr double kFurtherBack = 30 / kDegrees;
+constexpr std::size_t kFittedFrames = 40;
+
+/// How far a knee of the reference model, which ends where the leg is straight, would bend
+/// backwards in these frames, in which it is at that limit [rad]: the median of some of them, which
+/// are fitted anew with a limit that lies further back. joint: tracked, of the model; frames: not
+/// empty.
+double KneeBeyondStraight(const TrackingSetup& setup, const MarkerSequence& recording,
+                          const PoseTrajectory& trajectory, int joint,
+                          const std::vector<int>& frames) {
+  const double upper = setup.model->joint(joint).upper;
+  const KinematicModel model = WithUpperLimit(*setup.model, joint, upper + kFurtherBack);
+  const auto& assignments = setup.assignments();
+  const MarkerKinematics kinematics(model, setup.joints, MarkerIndices(assignments));
+  const auto column = std::find(setup.joints.begin(), setup.joints.end(), joint);
+  PostureFit fit(kinematics);
+  Eigen::VectorXd scale(static_cast<Eigen::Index>(assignments.size()));
+  for (std::size_t i = 0; i < assignments.size(); ++i) {
+    scale[static_cast<Eigen::Index>(i)] = assignments[i].noise_scale;
+  }
+  std::vector<double> angles;
+  const std::size_t count = std::min(frames.size(), kFittedFrames);
+  for (std::size_t i = 0; i < count; ++i) {
+    const int k = frames[i * frames.size() / count];
+    const Eigen::Matrix3Xd z = recording.frame(k)(Eigen::all, LabelIndices(assignments));
+    Posture posture = trajectory.postures[static_cast<std::size_t>(k)];
+    fit.Solve(z, scale, {}, &posture);
+    angles.push_back(posture.joint_angles[column - setup.joints.begin()] - upper);
+  }
+  return Median(angles);
+}
 
 constexpr double kAtLimitWithin = 0.5 / kDegrees;
 // A limit this near the joint's rest is how people stand.
@@ -27,7 +65,7 @@ constexpr std::size_t kFewestFlatFrames = 5;
 constexpr int kMostPostures = 500;
 constexpr int kFewestShowing = 2;  // markers; one takes up where it is worn
 
-/// Of frames that show too few markers nobody says where joints are.
+/// Nobody says where joints are in frames that show too few markers.
 std::vector<int> SeenFrames(const TrackingSetup& setup, const MarkerSequence& recording,
                             int num_frames) {
   std::vector<int> seen;

@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 constexpr int kMostFrames = 40;
 constexpr double kMostAtEnd = 0.5;     // of the frames
 constexpr double kUprightTrunk = 0.5;  // cosine of 60 degrees
-// Of the ankle above the hip, over the length of the trunk: who sits with straight legs has 0.
+// The height of the ankle above the hip, in lengths of the trunk: who sits with straight legs has
+// 0.
 constexpr double kBesideTrunk = 0.2;
 // The same of a leg that few labels show: on an arm that hangs down, feet are at the hips.
 constexpr double kBesideTrunkOfFew = -0.2;
@@ -76,8 +77,8 @@ class LimbPlaces {
     std::vector<double> distances;
     for (std::size_t m = 0; m < setup_.assignments().size(); ++m) {
       const auto row = static_cast<Eigen::Index>(m);
-      if (!IsBelow(model_.markers()[setup_.assignments()[m].marker].segment,
-                   model_.joint_segment(joint))) {
+      if (!model_.IsBelow(model_.markers()[setup_.assignments()[m].marker].segment,
+                          model_.joint_segment(joint))) {
         continue;
       }
       for (Eigen::Index k = 0; k < residuals_.cols(); ++k) {
@@ -91,10 +92,6 @@ class LimbPlaces {
  private:
   int Segment(char side, const char* name) const {
     return model_.FindSegment(side + std::string(name));
-  }
-  bool IsBelow(int segment, int joint_segment) const {
-    while (segment > joint_segment) segment = model_.segments()[segment].parent;
-    return segment == joint_segment;
   }
 
   const TrackingSetup& setup_;

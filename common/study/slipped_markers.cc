@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Matrix3Xd;
 
-constexpr int kMostFrames = 2000;  // that are looked at
+constexpr int kSlipFrames = 2000;  // that are looked at
 constexpr std::size_t kSpines = 4;
 
 /// The frames that show all of them, some thousand, and their places on a common shape.
@@ -27,7 +27,7 @@ struct Shapes {
 
 Shapes ShapesOf(const MarkerSequence& recording, const std::vector<int>& labels) {
   Shapes shapes;
-  const int step = 1 + recording.num_frames() / kMostFrames;
+  const int step = 1 + recording.num_frames() / kSlipFrames;
   for (int k = 0; k < recording.num_frames(); k += step) {
     const Matrix3Xd points = recording.frame(k)(Eigen::all, labels);
     if (!points.allFinite()) continue;

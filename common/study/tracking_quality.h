@@ -8,8 +8,8 @@
 
 #include "common/convert/motion_converter.h"
 #include "common/model/kinematic_model.h"
+#include "common/motion/hiding.h"
 #include "common/motion/pose_trajectory.h"
-#include "common/study/hiding.h"
 
 namespace mmm_converter {
 

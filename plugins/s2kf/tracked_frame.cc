@@ -11,23 +11,6 @@ namespace mmm_converter::s2kf {
 using Eigen::Index;
 using Eigen::Matrix3Xd;
 
-namespace {
-
-template <typename DistanceOf>
-double ClippedMeanOf(Index count, double limit, const DistanceOf& distance_of) {
-  double sum = 0;
-  int seen = 0;
-  for (Index i = 0; i < count; ++i) {
-    const double distance = distance_of(i);
-    if (!std::isfinite(distance)) continue;
-    sum += std::min(distance, limit);
-    ++seen;
-  }
-  return sum / std::max(seen, 1);
-}
-
-}  // namespace
-
 TrackedFrame::TrackedFrame(const MarkerKinematics& kinematics)
     : measured(Matrix3Xd::Constant(3, kinematics.num_markers(), kNaN)),
       relabelled(measured),
@@ -43,12 +26,16 @@ int CountSeen(const Matrix3Xd& z) {
   return seen;
 }
 
-double ClippedMean(const Eigen::Ref<const Eigen::VectorXd>& distances, double limit) {
-  return ClippedMeanOf(distances.size(), limit, [&](Index i) { return distances[i]; });
-}
-
 double ClippedMeanDistance(const Matrix3Xd& a, const Matrix3Xd& b, double limit) {
-  return ClippedMeanOf(a.cols(), limit, [&](Index i) { return (a.col(i) - b.col(i)).norm(); });
+  double sum = 0;
+  int seen = 0;
+  for (Index i = 0; i < a.cols(); ++i) {
+    const double distance = (a.col(i) - b.col(i)).norm();
+    if (!std::isfinite(distance)) continue;
+    sum += std::min(distance, limit);
+    ++seen;
+  }
+  return sum / std::max(seen, 1);
 }
 
 }  // namespace mmm_converter::s2kf

@@ -27,9 +27,8 @@ struct TrackedFrame {
 /// How many of the markers are seen; z: 3 x markers, NaN = not seen.
 int CountSeen(const Eigen::Matrix3Xd& z);
 
-/// Mean of the finite ones, each counted up to `limit`; 0 where there is none.
-double ClippedMean(const Eigen::Ref<const Eigen::VectorXd>& distances, double limit);
-/// The same of the distances between the columns of a and b [m].
+/// Mean of the finite distances between the columns of a and b [m], each counted up to `limit`; 0
+/// where there is none.
 double ClippedMeanDistance(const Eigen::Matrix3Xd& a, const Eigen::Matrix3Xd& b, double limit);
 
 }  // namespace mmm_converter::s2kf

@@ -22,9 +22,9 @@
 #include "common/model/coordinate_map.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "tests/benchmark/osim_cases.h"
 #include "tests/benchmark/simbody_assembler.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter {
 namespace {
@@ -69,7 +69,7 @@ void Deviations(const std::string& text, int first, int last) {
       const Case made = MakeCase(text, seed);
       const CalibratedPerson person = Calibrate(text, made);
       const Case other = MoveOtherwise(made, seed, seed + 5000);
-      const MarkerSequence seen = OccludeShare(other.markers, 0.1, 30, seed);
+      const MarkerSequence seen = testing::OccludeShare(other.markers, 0.1, 30, seed);
       AddShares(other, made.generic, Track(made.generic, preset, seen), &shares["uncalibrated"]);
       AddShares(other, made.person, Track(made.person, preset, seen), &shares["as large"]);
       ConversionResult result = Track(person.model, preset, seen);
@@ -133,7 +133,7 @@ void PrintBridge(const std::string& what, const Case& made, const std::string& j
 void Hidden(const std::string& text, int first, int last) {
   for (int seed = first; seed <= last; ++seed) {
     const Case made = MakeCase(text, seed);
-    const MarkerSequence quarter = OccludeShare(made.markers, 0.25, 50, seed);
+    const MarkerSequence quarter = testing::OccludeShare(made.markers, 0.25, 50, seed);
     std::vector<std::string> limb;  // below the right knee
     for (const ModelMarker& marker : made.known->markers()) {
       for (int s = marker.segment; s >= 0; s = made.known->segments()[s].parent) {
@@ -157,7 +157,7 @@ void Hidden(const std::string& text, int first, int last) {
       PrintErrors(line("a quarter hidden"), made, Track(made.known, preset, quarter), "", kSettled,
                   kFrames);
       for (const int frames : {25, 100}) {
-        const MarkerSequence seen = HideMarkers(made.markers, limb, 100, 100 + frames);
+        const MarkerSequence seen = testing::HideMarkers(made.markers, limb, 100, 100 + frames);
         const ConversionResult result = Track(made.known, preset, seen);
         for (const char* joint : {"knee_angle_r", "ankle_angle_r"}) {
           const std::string what =

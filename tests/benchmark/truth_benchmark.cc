@@ -19,7 +19,6 @@
 #include "common/calibrate/calibration.h"
 #include "common/convert/converter_config.h"
 #include "common/math/seeded_random.h"
-#include "common/motion/occlusion.h"
 #include "common/motion/trajectory_derivatives.h"
 #include "common/support/error.h"
 #include "plugins/s2kf/s2kf_converter.h"
@@ -27,6 +26,7 @@
 #include "tests/plugins/s2kf/session.h"
 #include "tests/plugins/s2kf/session_motions.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
@@ -85,7 +85,8 @@ class Runs {
       for (const NamedMotion& named :
            SessionMotionsWithRecordedOnes(session.model, kFrames, seed)) {
         const MarkerSequence all = HideBlocks(session.Record(named.motion), seed);
-        const MarkerSequence hidden = OccludeShare(all, kMissingShare, 10 * kMissingFrames, seed);
+        const MarkerSequence hidden =
+            testing::OccludeShare(all, kMissingShare, 10 * kMissingFrames, seed);
         MarkerSequence seen = all;
         for (int k = 0; k < kMissingFrames; ++k) seen.frame(k) = hidden.frame(k);
         CentreErrors errors;

@@ -11,10 +11,10 @@
 
 #include "common/io/c3d/c3d_writer.h"
 #include "common/io/recording/recording.h"
-#include "common/motion/occlusion.h"
 #include "tests/cli/batch_manifest.h"
 #include "tests/cli/program.h"
 #include "tests/common/retarget/biped.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter {
 namespace {
@@ -144,7 +144,7 @@ TEST(Batch, WhatHelpsIsAnAttribute) {
   const MarkerSequence markers = ReadRecording(testing::Handstand(), {}).markers.Slice(0, 150);
   std::vector<std::string> hidden = markers.labels();
   std::erase_if(hidden, [](const std::string& one) { return one == "C7" || one == "LASI"; });
-  WriteC3d(TestFolder() + "/two.c3d", HideMarkers(markers, hidden, 0, 150));
+  WriteC3d(TestFolder() + "/two.c3d", testing::HideMarkers(markers, hidden, 0, 150));
   const auto run = RunProgram({"convert", TestFolder() + "/two.c3d"});
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("no frame shows three mapped markers; give it, e.g. --height"));
@@ -156,7 +156,7 @@ TEST(Batch, WhatHelpsIsAnAttribute) {
 
 TEST(Batch, WhoComesLateIsTrackedFromThenOn) {
   const MarkerSequence markers = ReadRecording(testing::Handstand(), {}).markers.Slice(0, 250);
-  WriteC3d(TestFolder() + "/late.c3d", HideAllMarkers(markers, 0, 220));
+  WriteC3d(TestFolder() + "/late.c3d", testing::HideAllMarkers(markers, 0, 220));
   const auto run = RunProgram({"convert", TestFolder() + "/late.c3d", "--height", "1.8",
                                "--summary", TestFolder() + "/late.json"});
   EXPECT_EQ(run.exit_code, 0) << run.err;

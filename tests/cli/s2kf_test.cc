@@ -10,8 +10,8 @@
 #include "common/io/c3d/c3d_writer.h"
 #include "common/io/mmm/mmm_motion.h"
 #include "common/io/recording/recording.h"
-#include "common/motion/occlusion.h"
 #include "tests/cli/program.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter {
 namespace {
@@ -96,7 +96,7 @@ TEST(S2kf, TheConfigurationSaysTheFormatAndTheCommandLineComesFirst) {
 TEST(S2kf, NamesSwappedMarkersAndWhen) {
   MarkerSequence markers = ReadRecording(Handstand(), {}).markers.Slice(0, 250);
   const std::string file = TestFolder() + "/swapped.c3d";
-  WriteC3d(file, SwapMarkers(markers, "RWTS", "LWTS", 100, 200));
+  WriteC3d(file, testing::SwapMarkers(markers, "RWTS", "LWTS", 100, 200));
   const std::string summary = TestFolder() + "/swapped.json";
   const auto run = RunProgram({"convert", file, "--height", "1.8", "--frames", "50:", "-o",
                                TestFolder() + "/o.xml", "--summary", summary});

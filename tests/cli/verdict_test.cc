@@ -13,9 +13,9 @@
 #include "common/io/c3d/c3d_writer.h"
 #include "common/io/recording/recording.h"
 #include "common/math/seeded_random.h"
-#include "common/motion/occlusion.h"
 #include "common/support/units.h"
 #include "tests/cli/program.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter {
@@ -320,24 +320,24 @@ TEST(Verdict, LimbsThatNoMarkersShow) {
 }
 
 TEST(Verdict, LongGaps) {
-  Judged judged = ConvertMarkers(HideAllMarkers(Sample(), 60, 165));
+  Judged judged = ConvertMarkers(testing::HideAllMarkers(Sample(), 60, 165));
   EXPECT_EQ(judged.level, "check");
   EXPECT_THAT(judged.reasons, HasSubstr("the body is hidden for 1.1 s, frames 60 to 164"));
   std::vector<std::string> of_leg;
   for (const std::string& label : Sample().labels()) {
     if (label[0] == 'L' && IsOfLeg(label)) of_leg.push_back(label);
   }
-  judged = ConvertMarkers(HideMarkers(Sample(), of_leg, 60, 165));
+  judged = ConvertMarkers(testing::HideMarkers(Sample(), of_leg, 60, 165));
   EXPECT_EQ(judged.level, "check");
   EXPECT_THAT(judged.reasons, HasSubstr("the left leg is hidden for 1.1 s"));
 }
 
 TEST(Verdict, GapsOfHalfASecond) {
-  const MarkerSequence once = HideAllMarkers(Sample(), 60, 110);
+  const MarkerSequence once = testing::HideAllMarkers(Sample(), 60, 110);
   Judged judged = ConvertMarkers(once);
   EXPECT_EQ(judged.level, "check");
   EXPECT_THAT(judged.reasons, HasSubstr("the body is hidden for 0.5 s, frames 60 to 109;"));
-  judged = ConvertMarkers(HideAllMarkers(once, 140, 190));
+  judged = ConvertMarkers(testing::HideAllMarkers(once, 140, 190));
   EXPECT_THAT(judged.reasons,
               HasSubstr("frames 60 to 109; the body is hidden for 0.5 s, frames 140 to 189;"));
 }
@@ -408,7 +408,7 @@ TEST(Verdict, AnotherPersonUnderTheSameLabels) {
 TEST(Verdict, IsInThePageToo) {
   const std::string page = TestFolder() + "/page.html";
   const std::string file = TestFolder() + "/made.c3d";
-  WriteC3d(file, HideAllMarkers(Sample(), 60, 165));
+  WriteC3d(file, testing::HideAllMarkers(Sample(), 60, 165));
   const auto run = RunProgram(
       {"convert", file, "--height", "1.8", "-o", TestFolder() + "/o.xml", "--report", page});
   ASSERT_EQ(run.exit_code, 0) << run.err;

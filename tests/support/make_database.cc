@@ -23,10 +23,11 @@
 #include "common/math/rotation.h"
 #include "common/math/seeded_random.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/support/atomic_file.h"
 #include "common/support/parallel.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/long_recording.h"
 #include "tests/support/synthetic_person.h"
 
@@ -34,8 +35,8 @@ namespace mmm_converter::testing {
 namespace {
 
 constexpr int kRecordingsPerPerson = 10;
-constexpr double kNoise = 0.001;               // [m]
-constexpr RandomOcclusion kGaps = {2e-4, 20};  // 0.4 % hidden, 0.2 s at a time
+constexpr double kNoise = 0.001;                        // [m]
+constexpr testing::RandomOcclusion kGaps = {2e-4, 20};  // 0.4 % hidden, 0.2 s at a time
 
 struct Options {
   std::string folder;
@@ -91,7 +92,7 @@ void Record(const Options& options, int index, Person* person) {
   const KinematicModel model = ScaledReferenceModel(person->height);
   const std::vector<NamedMotion> motions = {
       {"handstand", MakeHandstand(model)},
-      {"cartwheel", MakeCartwheel(model)},
+      {"cartwheel", testing::MakeCartwheel(model)},
       {"range", RangeOfMotion(model, 20, 0.7, SeedOf(options, index, 0))}};
   const std::string folder = "files_motions_" + person->id;
   std::filesystem::create_directories(options.folder + "/" + folder);
@@ -106,7 +107,7 @@ void Record(const Options& options, int index, Person* person) {
         SynthesizeMarkers(model, PlayElsewhere(motion.trajectory, frames, &random), errors, seed);
     person->recordings.push_back(fmt::format("{}/{}_{:02}.c3d", folder, motion.name, r + 1));
     WriteC3d(options.folder + "/" + person->recordings.back(),
-             OccludeAtRandom(markers, kGaps, seed),
+             testing::OccludeAtRandom(markers, kGaps, seed),
              {.comment = "Synthetic: not a recorded person."});
   }
 }

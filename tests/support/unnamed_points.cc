@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/math/seeded_random.h"
-#include "common/motion/occlusion.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter::testing {
 
@@ -46,7 +46,7 @@ UnnamedPoints MakeUnnamed(const MarkerSequence& recording, const UnnamedErrors& 
   MarkerSequence markers = recording;
   if (errors.hidden > 0) {
     const double block = std::max(1.0, 0.5 * recording.rate());
-    markers = OccludeShare(markers, errors.hidden, block, seed);
+    markers = testing::OccludeShare(markers, errors.hidden, block, seed);
   }
   const int columns = recording.num_labels() + errors.ghosts;
   std::vector<std::string> names;

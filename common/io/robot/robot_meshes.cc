@@ -115,13 +115,8 @@ class MeshReader {
 void ReadMeshes(int segment, Robot* robot, Warnings* warnings) {
   MeshReader reader(robot, warnings);
   const int root = RigidRoot(robot->model, segment);
-  const auto& segments = robot->model.segments();
-  std::vector<bool> is_below(segments.size(), false);
-  for (int body = root; body < static_cast<int>(segments.size()); ++body) {
-    const int parent = segments[static_cast<std::size_t>(body)].parent;
-    is_below[static_cast<std::size_t>(body)] =
-        body == root || (parent >= 0 && is_below[static_cast<std::size_t>(parent)]);
-    if (!is_below[static_cast<std::size_t>(body)]) continue;
+  for (int body = root; body < static_cast<int>(robot->model.segments().size()); ++body) {
+    if (!robot->model.IsBelow(body, root)) continue;
     if (RigidRoot(robot->model, body) == body) reader.ReadBody(body);
   }
 }

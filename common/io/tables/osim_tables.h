@@ -15,14 +15,14 @@ namespace mmm_converter {
 // the axes of the model's ground (y up, where the model is not one of OpenSim). Postures must be
 // finite. Models, errors and trajectories must outlive the texts.
 
-/// Of a model that has coordinates(), all of the model, with those that are locked or follow
-/// others, as its inverse kinematics writes them: turns in degrees, all else in metres and radians.
+/// All coordinates of a model that has coordinates(), with those that are locked or follow others,
+/// as its inverse kinematics writes them: turns in degrees, all else in metres and radians.
 TextPieces FormatOsimMotion(const KinematicModel& model, const PoseTrajectory& trajectory);
 
 /// How tables of FormatOsimDeviations begin.
 inline constexpr const char* kOsimDeviations = "Standard deviations of coordinates";
 
-/// Of such a model the standard deviations of the coordinates, in their units. Coordinates that the
+/// The standard deviations of such a model's coordinates, in their units. Coordinates that the
 /// tracker says nothing of are 0 where they are constant, else nan.
 TextPieces FormatOsimDeviations(const KinematicModel& model, const PoseTrajectory& trajectory);
 
@@ -36,5 +36,15 @@ TextPieces FormatOsimMarkers(const KinematicModel& model, const PoseTrajectory& 
 /// errors: markers x frames [m], NaN where it is not seen.
 TextPieces FormatOsimMarkerErrors(const std::vector<std::string>& names,
                                   const Eigen::MatrixXd& errors, const PoseTrajectory& trajectory);
+
+/// A trajectory as OpenSim's motion file (.mot, or .sto, which is the same): coordinates over time,
+/// tab separated, as its inverse kinematics writes them: seconds, metres, degrees, y up.
+///
+/// Columns: time; the root's ROOT_tx, _ty, _tz: x, z, -y of its position in W; ROOT_rx, _ry, _rz:
+/// roll, yaw, -pitch of its rotation in W, which with W's and the root's own axes turned to y up is
+/// Ry(ry) Rz(rz) Rx(rx), 0 where the root stands as in the model file; then the joints under their
+/// names. Blanks in names become '_'. The same ground as FormatTrc's. Postures must be finite. The
+/// trajectory must outlive the text.
+TextPieces FormatMot(const PoseTrajectory& trajectory, const std::string& root);
 
 }  // namespace mmm_converter

@@ -11,6 +11,7 @@
 
 #include "common/io/tables/column_names.h"
 #include "common/io/tables/npz_writer.h"
+#include "common/io/tables/table_rows.h"
 #include "common/io/xml/xml_text.h"
 #include "common/math/rotation.h"
 #include "common/support/error.h"
@@ -86,40 +87,29 @@ std::string PoseHeader(const BodyPoses& poses, RotationForm form) {
   return header + "\n";
 }
 
-template <typename Vector>
-void AppendPoseCells(const Vector& values, int decimals, std::string* out) {
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(values.size()); ++i) {
-    *out += ',';
-    if (std::isfinite(values[i])) AppendDecimal(values[i], decimals, out);
-  }
-}
-
 void AppendPoseRow(const BodyPoses& poses, RotationForm form, int k, std::string* out) {
   AppendDecimal(poses.time(k), kSecondDecimals, out);
   std::vector<double> rotation;
   for (int b = 0; b < poses.num_bodies(); ++b) {
-    AppendPoseCells(poses.positions.col(k).segment<3>(3 * b), kPoseMetreDecimals, out);
+    AppendCsvCells(poses.positions.col(k).segment<3>(3 * b), kPoseMetreDecimals, out);
     rotation.clear();
     AppendRotation(poses.quaternions.col(k).segment<4>(4 * b), form, &rotation);
-    AppendPoseCells(Eigen::Map<const Eigen::VectorXd>(rotation.data(),
-                                                      static_cast<Eigen::Index>(rotation.size())),
-                    kRadianDecimals, out);
+    AppendCsvCells(rotation, kRadianDecimals, out);
   }
-  AppendPoseCells(poses.point_positions.col(k), kPoseMetreDecimals, out);
+  AppendCsvCells(poses.point_positions.col(k), kPoseMetreDecimals, out);
   if (poses.center_of_mass.size() > 0) {
-    AppendPoseCells(poses.center_of_mass.col(k), kPoseMetreDecimals, out);
+    AppendCsvCells(poses.center_of_mass.col(k), kPoseMetreDecimals, out);
   }
   for (Eigen::Index row = 0; row < poses.velocities.rows(); row += 3) {
-    AppendPoseCells(poses.velocities.col(k).segment<3>(row), kPoseMetreDecimals, out);
-    AppendPoseCells(poses.angular_velocities.col(k).segment<3>(row), kRadianDecimals, out);
+    AppendCsvCells(poses.velocities.col(k).segment<3>(row), kPoseMetreDecimals, out);
+    AppendCsvCells(poses.angular_velocities.col(k).segment<3>(row), kRadianDecimals, out);
   }
   if (poses.point_velocities.size() > 0) {
-    AppendPoseCells(poses.point_velocities.col(k), kPoseMetreDecimals, out);
+    AppendCsvCells(poses.point_velocities.col(k), kPoseMetreDecimals, out);
   }
   if (poses.center_of_mass_velocity.size() > 0) {
-    AppendPoseCells(poses.center_of_mass_velocity.col(k), kPoseMetreDecimals, out);
+    AppendCsvCells(poses.center_of_mass_velocity.col(k), kPoseMetreDecimals, out);
   }
-  *out += '\n';
 }
 
 // Makes the arrays of a file.
@@ -229,15 +219,9 @@ RotationForm ParseRotationForm(const std::string& text) {
 }
 
 TextPieces FormatPoseCsv(const BodyPoses& poses, RotationForm rotation) {
-  return [&poses, rotation](const TextSink& sink) {
-    PieceWriter pieces(sink);
-    *pieces.text() += PoseHeader(poses, rotation);
-    for (int k = 0; k < poses.num_frames(); ++k) {
-      AppendPoseRow(poses, rotation, k, pieces.text());
-      pieces.EndPart();
-    }
-    pieces.Flush();
-  };
+  return TableText(
+      PoseHeader(poses, rotation), {0, poses.num_frames()},
+      [&poses, rotation](int k, std::string* out) { AppendPoseRow(poses, rotation, k, out); });
 }
 
 TextPieces FormatPoseNpz(const BodyPoses& poses, RotationForm rotation) {

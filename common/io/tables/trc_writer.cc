@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/io/tables/column_names.h"
+#include "common/io/tables/table_rows.h"
 #include "common/io/xml/xml_text.h"
 #include "common/math/up_axis.h"
 #include "common/model/marker_kinematics.h"
@@ -15,8 +16,6 @@
 
 namespace mmm_converter {
 namespace {
-
-// Nanoseconds, 0.1 micrometres, as in the motion files.
 
 /// Where the model has its markers, frame by frame.
 class ModelMarkers {
@@ -62,12 +61,12 @@ std::vector<std::string> Labels(const TrcOutput& output) {
   return ColumnNames(labels);
 }
 
-void AppendHeader(const TrcOutput& output, std::string* out) {
+std::string FormatTrcHeader(const TrcOutput& output) {
   const std::vector<std::string> labels = Labels(output);
   const int frames = output.measured->num_frames();
   std::string rate;
   AppendDecimal(output.measured->rate(), kSecondDecimals, &rate);
-  *out += fmt::format(
+  std::string header = fmt::format(
       "PathFileType\t4\t(X/Y/Z)\t{}\n"
       "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
       "OrigNumFrames\n"
@@ -75,10 +74,10 @@ void AppendHeader(const TrcOutput& output, std::string* out) {
       "Frame#\tTime\t",
       OneWord(output.file_name), rate, rate, frames, labels.size(), rate, output.first_frame,
       frames);
-  for (const std::string& label : labels) *out += label + "\t\t\t";
-  *out += "\n\t\t";
-  for (std::size_t i = 1; i <= labels.size(); ++i) *out += fmt::format("X{0}\tY{0}\tZ{0}\t", i);
-  *out += "\n\n";
+  for (const std::string& label : labels) header += label + "\t\t\t";
+  header += "\n\t\t";
+  for (std::size_t i = 1; i <= labels.size(); ++i) header += fmt::format("X{0}\tY{0}\tZ{0}\t", i);
+  return header + "\n\n";
 }
 
 void AppendPoints(const Eigen::Ref<const Eigen::Matrix3Xd>& p_WM, std::string* out) {
@@ -99,26 +98,19 @@ void AppendPoints(const Eigen::Ref<const Eigen::Matrix3Xd>& p_WM, std::string* o
 }  // namespace
 
 TextPieces FormatTrc(const TrcOutput& output) {
-  return [output](const TextSink& sink) {
-    const MarkerSequence& measured = *output.measured;
-    std::optional<ModelMarkers> model;
-    if (!output.model_markers.empty()) {
-      assert(output.trajectory->num_frames() == measured.num_frames());
-      model.emplace(output);
-    }
-    PieceWriter pieces(sink);
-    AppendHeader(output, pieces.text());
-    for (int k = 0; k < measured.num_frames(); ++k) {
-      *pieces.text() += fmt::format("{}\t", output.first_frame + k);
-      AppendDecimal(measured.time(k), kSecondDecimals, pieces.text());
-      *pieces.text() += '\t';
-      AppendPoints(measured.frame(k), pieces.text());
-      if (model) AppendPoints(model->At(k), pieces.text());
-      *pieces.text() += '\n';
-      pieces.EndPart();
-    }
-    pieces.Flush();
+  std::optional<ModelMarkers> model;
+  if (!output.model_markers.empty()) {
+    assert(output.trajectory->num_frames() == output.measured->num_frames());
+    model.emplace(output);
+  }
+  const auto row = [output, model](int k, std::string* out) mutable {
+    *out += fmt::format("{}\t", output.first_frame + k);
+    AppendDecimal(output.measured->time(k), kSecondDecimals, out);
+    *out += '\t';
+    AppendPoints(output.measured->frame(k), out);
+    if (model) AppendPoints(model->At(k), out);
   };
+  return TableText(FormatTrcHeader(output), {0, output.measured->num_frames()}, row);
 }
 
 }  // namespace mmm_converter

@@ -10,19 +10,180 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <vector>
 
-#include "common/io/urdf/urdf_floating.h"
-#include "common/io/urdf/urdf_shapes.h"
 #include "common/io/xml/xml_document.h"
 #include "common/io/xml/xml_text.h"
 #include "common/model/body_bounds.h"
 #include "common/model/inertia_check.h"
+#include "common/support/diagnostics.h"
 #include "common/support/error.h"
 #include "common/support/text.h"
 
 namespace mmm_converter {
 namespace {
+
+std::optional<int> FloatingJoint(const UrdfDocument& document) {
+  std::optional<int> floating;
+  for (std::size_t i = 0; i < document.joints.size(); ++i) {
+    if (document.joints[i].parent != document.root) continue;
+    if (floating || document.joints[i].type != UrdfJointType::kFloating) return {};
+    floating = static_cast<int>(i);
+  }
+  if (document.links[static_cast<std::size_t>(document.root)].mass != 0) return {};
+  return floating;
+}
+
+void MoveUp(int removed, int* index) {
+  if (*index > removed) --*index;
+}
+
+/// Where the root is a link without mass that only carries the next one by a floating joint, that
+/// one becomes the root: the joint's origin is a start pose only.
+void RemoveFloatingWorld(UrdfDocument* document) {
+  const std::optional<int> floating = FloatingJoint(*document);
+  if (!floating) return;
+  const int world = document->root;
+  document->root = document->joints[static_cast<std::size_t>(*floating)].child;
+  document->links[static_cast<std::size_t>(document->root)].parent_joint = -1;
+  document->links.erase(document->links.begin() + world);
+  document->joints.erase(document->joints.begin() + *floating);
+  MoveUp(world, &document->root);
+  for (UrdfLink& link : document->links) MoveUp(*floating, &link.parent_joint);
+  for (UrdfJoint& joint : document->joints) {
+    MoveUp(world, &joint.parent);
+    MoveUp(world, &joint.child);
+  }
+  std::erase_if(document->shapes, [&](const ContactShape& one) { return one.segment == world; });
+  std::erase_if(document->meshes, [&](const RobotMesh& one) { return one.segment == world; });
+  for (ContactShape& shape : document->shapes) MoveUp(world, &shape.segment);
+  for (RobotMesh& mesh : document->meshes) MoveUp(world, &mesh.segment);
+}
+
+constexpr double kLargestSize = 100;  // [m]; beyond it the number is of another unit
+
+/// So many finite numbers, or nothing.
+std::optional<Eigen::VectorXd> Numbers(const XmlElement& element, const char* attribute,
+                                       std::size_t count) {
+  const std::string* text = element.FindAttribute(attribute);
+  std::vector<double> numbers;
+  if (text == nullptr || !AppendDoubles(*text, &numbers) || numbers.size() != count) return {};
+  const bool is_sane = std::all_of(numbers.begin(), numbers.end(),
+                                   [](double x) { return std::abs(x) <= kLargestSize; });
+  if (!is_sane) return {};
+  return Eigen::Map<const Eigen::VectorXd>(numbers.data(),
+                                           static_cast<Eigen::Index>(numbers.size()));
+}
+
+bool IsSize(const std::optional<Eigen::VectorXd>& size) {
+  return size && size->minCoeff() >= 0 && size->maxCoeff() > 0;
+}
+
+/// R = Rz(yaw) Ry(pitch) Rx(roll).
+std::optional<Eigen::Isometry3d> Origin(const XmlElement& collision) {
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  const XmlElement* origin = collision.FindChild("origin");
+  if (origin == nullptr) return X;
+  if (origin->FindAttribute("xyz") != nullptr) {
+    const auto xyz = Numbers(*origin, "xyz", 3);
+    if (!xyz) return {};
+    X.translation() = *xyz;
+  }
+  if (origin->FindAttribute("rpy") != nullptr) {
+    const auto rpy = Numbers(*origin, "rpy", 3);
+    if (!rpy) return {};
+    X.rotate(Eigen::AngleAxisd((*rpy)[2], Eigen::Vector3d::UnitZ()));
+    X.rotate(Eigen::AngleAxisd((*rpy)[1], Eigen::Vector3d::UnitY()));
+    X.rotate(Eigen::AngleAxisd((*rpy)[0], Eigen::Vector3d::UnitX()));
+  }
+  return X;
+}
+
+bool ReadRound(const XmlElement& element, ContactShape::Kind kind, ContactShape* shape) {
+  const auto radius = Numbers(element, "radius", 1);
+  const auto length = kind == ContactShape::Kind::kSphere ? radius : Numbers(element, "length", 1);
+  if (!IsSize(radius) || !length || (*length)[0] < 0) return false;
+  shape->kind = kind;
+  shape->radius = (*radius)[0];
+  if (kind != ContactShape::Kind::kSphere) shape->half_length = 0.5 * (*length)[0];
+  return true;
+}
+
+bool ReadShape(const XmlElement& element, ContactShape* shape) {
+  if (element.Is("box")) {
+    const auto size = Numbers(element, "size", 3);
+    if (!IsSize(size)) return false;
+    shape->kind = ContactShape::Kind::kBox;
+    shape->half = 0.5 * *size;
+    return true;
+  }
+  if (element.Is("sphere")) return ReadRound(element, ContactShape::Kind::kSphere, shape);
+  if (element.Is("cylinder")) return ReadRound(element, ContactShape::Kind::kCylinder, shape);
+  return element.Is("capsule") && ReadRound(element, ContactShape::Kind::kCapsule, shape);
+}
+
+/// `<mesh filename="" scale="">`; nothing where that is damaged.
+std::optional<RobotMesh> MeshOf(const XmlElement& element, const Eigen::Isometry3d& X_LG) {
+  const std::string* file = element.FindAttribute("filename");
+  if (file == nullptr || Trim(*file).empty()) return {};
+  RobotMesh mesh;
+  mesh.file = Trim(*file);
+  mesh.A_SM = X_LG;
+  if (element.FindAttribute("scale") != nullptr) {
+    const auto scale = Numbers(element, "scale", 3);
+    if (!scale || scale->cwiseAbs().minCoeff() == 0) return {};
+    mesh.A_SM.scale(Eigen::Vector3d(*scale));
+  }
+  return mesh;
+}
+
+/// What is looked at only has its use where what touches tells nothing.
+void AddVisualMeshes(const XmlElement& element, int link, UrdfDocument* document) {
+  for (const XmlElement* visual : element.FindChildren("visual")) {
+    const XmlElement* geometry = visual->FindChild("geometry");
+    const XmlElement* named = geometry == nullptr ? nullptr : geometry->FindChild("mesh");
+    const auto X = Origin(*visual);
+    if (named == nullptr || !X) continue;
+    auto mesh = MeshOf(*named, *X);
+    if (!mesh) continue;
+    mesh->segment = link;
+    mesh->touches = false;
+    document->meshes.push_back(*std::move(mesh));
+  }
+}
+
+/// Appends the shapes of a `<link>`'s `<collision>` elements, and its meshes, `link` being its
+/// index. Damaged ones are left out, with a warning where they would touch.
+void AddUrdfShapes(const XmlElement& element, int link, UrdfDocument* document,
+                   Diagnostics* diagnostics) {
+  for (const XmlElement* collision : element.FindChildren("collision")) {
+    const XmlElement* geometry = collision->FindChild("geometry");
+    const bool is_empty = geometry == nullptr || geometry->children.empty();
+    const auto X = Origin(*collision);
+    if (!is_empty && X && geometry->children.front().Is("mesh")) {
+      if (auto mesh = MeshOf(geometry->children.front(), *X)) {
+        mesh->segment = link;
+        document->meshes.push_back(*std::move(mesh));
+        continue;
+      }
+    }
+    ContactShape shape;
+    shape.segment = link;
+    if (is_empty || !X || !ReadShape(geometry->children.front(), &shape)) {
+      diagnostics->AddWarning(
+          collision->line,
+          fmt::format("link '{}': a <collision> is not a box, sphere, cylinder or capsule of "
+                      "numbers in metres, or a mesh with a filename, and is left out",
+                      document->links[static_cast<std::size_t>(link)].name),
+          "collisions that can't be read");
+      continue;
+    }
+    shape.X_SG = *X;
+    document->shapes.push_back(shape);
+  }
+  AddVisualMeshes(element, link, document);
+}
 
 constexpr std::size_t kFewestOfRobot = 6;  // joints that turn, as of one limb
 
@@ -75,8 +236,8 @@ void CompleteLimit(XmlElement* joint) {
   }
 }
 
-/// Of the URDF what a tree of joints, masses and shapes is made of. Of these urdfdom sees no
-/// shapes, so that damaged ones do no harm, and only XML of a depth that is known to be small.
+/// What a tree of joints, masses and shapes is made of. urdfdom sees no shapes, so that damaged
+/// ones do no harm, and only XML of a depth that is known to be small.
 XmlElement Essence(const XmlElement& robot) {
   XmlElement essence;
   essence.name = robot.name;

@@ -77,7 +77,7 @@ struct FrameCheck {
   double most;
 };
 
-// Of the frames that count, at most kMostBadFrames may be bad.
+// At most kMostBadFrames of the frames that count may be bad.
 template <typename Counts, typename Figure>
 DynamicsCheck CheckFrames(const MotionDynamics& dynamics, const FrameCheck& check,
                           const std::string& why_no_forces, Counts counts, Figure figure) {
@@ -282,7 +282,7 @@ DynamicsCheck CheckTorque(const MotionDynamics& dynamics, const Plausibility& ju
       fmt::format("no joint of a body has more than some {:g} N m for each kilogram", kMostTorque));
 }
 
-// Of joints whose motors' limits are known, the one that needs most of its own.
+// Judges the joint that needs most of its motor's limit, where such limits are known.
 DynamicsCheck CheckMotors(const KinematicModel& model, const Eigen::VectorXd& limits,
                           const Plausibility& judged) {
   const char* name = "motors off the ground";
@@ -307,12 +307,6 @@ DynamicsCheck CheckMotors(const KinematicModel& model, const Eigen::VectorXd& li
                 expected, most <= 1, "the robot's file allows its motor no more");
 }
 
-// Whether the segment lies below the joint, or is its own.
-bool IsBelow(const KinematicModel& model, int segment, int joint_segment) {
-  while (segment > joint_segment) segment = model.segments()[segment].parent;
-  return segment == joint_segment;
-}
-
 // joints x contact bodies.
 Eigen::MatrixXi ContactsBelow(const KinematicModel& model, const MotionDynamics& dynamics) {
   const auto num_bodies = static_cast<Eigen::Index>(dynamics.contact_bodies.size());
@@ -321,7 +315,7 @@ Eigen::MatrixXi ContactsBelow(const KinematicModel& model, const MotionDynamics&
     for (Eigen::Index b = 0; b < num_bodies; ++b) {
       const std::vector<int>& segments = dynamics.contact_bodies[b].segments;
       below(j, b) = std::any_of(segments.begin(), segments.end(), [&](int segment) {
-        return IsBelow(model, segment, model.joint_segment(j));
+        return model.IsBelow(segment, model.joint_segment(j));
       });
     }
   }

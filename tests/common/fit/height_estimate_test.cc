@@ -7,8 +7,8 @@
 #include "common/model/kit_joints.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/synthetic_motion.h"
 #include "common/support/error.h"
+#include "tests/support/acrobatics.h"
 #include "tests/support/all_indices.h"
 #include "tests/support/shared_data.h"
 
@@ -23,7 +23,8 @@ class HeightEstimateTest : public ::testing::Test {
 
   HeightEstimate Estimate(double height, const MarkerErrors& errors) {
     const KinematicModel person = ScaleWinter(model_, {height, 70, {}});
-    const MarkerSequence recording = SynthesizeMarkers(person, MakeCartwheel(person), errors, 1);
+    const MarkerSequence recording =
+        SynthesizeMarkers(person, testing::MakeCartwheel(person), errors, 1);
     // Labels of a synthetic recording are in the order of the model's markers.
     return EstimateHeight(model_, joints_, testing::AllIndices<MarkerIx>(num_markers_),
                           testing::AllIndices<LabelIx>(num_markers_), recording);

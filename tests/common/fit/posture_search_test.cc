@@ -5,6 +5,7 @@
 
 #include "common/motion/marker_synthesis.h"
 #include "common/motion/synthetic_motion.h"
+#include "tests/support/acrobatics.h"
 #include "tests/support/synthetic_person.h"
 
 namespace mmm_converter::testing {
@@ -46,8 +47,8 @@ TEST(PostureSearch, FindsThePostureOfASingleFrame) {
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const KinematicModel model = ScaledReferenceModel(1.75);
     const KinematicModel person = FitToSubject(model, DrawPerson(model, seed));
-    for (const PoseTrajectory& motion :
-         {RangeOfMotion(person, 6, 0.8, seed), MakeHandstand(person), MakeCartwheel(person)}) {
+    for (const PoseTrajectory& motion : {RangeOfMotion(person, 6, 0.8, seed), MakeHandstand(person),
+                                         testing::MakeCartwheel(person)}) {
       const Starts starts = CountStarts(person, motion, seed, 34);
       sum.right += starts.right;
       sum.all += starts.all;

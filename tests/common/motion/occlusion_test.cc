@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "common/motion/occlusion.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "common/support/error.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter {
 namespace {
@@ -40,7 +39,7 @@ bool Same(const MarkerSequence& a, const MarkerSequence& b) {
 }
 
 TEST(OcclusionTest, RandomOcclusionHidesTheShareThatItsParametersSay) {
-  const MarkerSequence hidden = OccludeAtRandom(FullSequence(50, 5000), {0.005, 100}, 1);
+  const MarkerSequence hidden = testing::OccludeAtRandom(FullSequence(50, 5000), {0.005, 100}, 1);
   double mean = 0;
   for (int k = 500; k < 5000; ++k) mean += NumHidden(hidden, k) / 4500.0;
   // Visible for 1/p - 1 whole frames, then hidden for 100: 100 / 299 of 50 markers. Some 4500 / 300
@@ -49,7 +48,7 @@ TEST(OcclusionTest, RandomOcclusionHidesTheShareThatItsParametersSay) {
 }
 
 TEST(OcclusionTest, ShareIsHiddenInEveryFrameAndWanders) {
-  const MarkerSequence hidden = OccludeShare(FullSequence(53, 2000), 0.33, 100, 2);
+  const MarkerSequence hidden = testing::OccludeShare(FullSequence(53, 2000), 0.33, 100, 2);
   Eigen::VectorXi frames_hidden = Eigen::VectorXi::Zero(53);
   for (int k = 0; k < 2000; ++k) {
     ASSERT_EQ(NumHidden(hidden, k), 17);  // round(0.33 * 53)
@@ -60,23 +59,25 @@ TEST(OcclusionTest, ShareIsHiddenInEveryFrameAndWanders) {
 }
 
 TEST(OcclusionTest, ShareOfNothingAndOfAll) {
-  EXPECT_TRUE(Same(OccludeShare(FullSequence(5, 50), 0, 10, 3), FullSequence(5, 50)));
-  EXPECT_EQ(NumHidden(OccludeShare(FullSequence(5, 50), 1, 10, 3), 49), 5);
+  EXPECT_TRUE(Same(testing::OccludeShare(FullSequence(5, 50), 0, 10, 3), FullSequence(5, 50)));
+  EXPECT_EQ(NumHidden(testing::OccludeShare(FullSequence(5, 50), 1, 10, 3), 49), 5);
 }
 
 TEST(OcclusionTest, SeedDecides) {
   const MarkerSequence full = FullSequence(20, 300);
-  EXPECT_TRUE(Same(OccludeAtRandom(full, {}, 4), OccludeAtRandom(full, {}, 4)));
-  EXPECT_FALSE(Same(OccludeAtRandom(full, {}, 4), OccludeAtRandom(full, {}, 5)));
-  EXPECT_TRUE(Same(OccludeShare(full, 0.5, 30, 4), OccludeShare(full, 0.5, 30, 4)));
-  EXPECT_FALSE(Same(OccludeShare(full, 0.5, 30, 4), OccludeShare(full, 0.5, 30, 5)));
+  EXPECT_TRUE(Same(testing::OccludeAtRandom(full, {}, 4), testing::OccludeAtRandom(full, {}, 4)));
+  EXPECT_FALSE(Same(testing::OccludeAtRandom(full, {}, 4), testing::OccludeAtRandom(full, {}, 5)));
+  EXPECT_TRUE(
+      Same(testing::OccludeShare(full, 0.5, 30, 4), testing::OccludeShare(full, 0.5, 30, 4)));
+  EXPECT_FALSE(
+      Same(testing::OccludeShare(full, 0.5, 30, 4), testing::OccludeShare(full, 0.5, 30, 5)));
 }
 
 TEST(OcclusionTest, HidesAndSwapsExactlyTheFramesThatAreNamed) {
   const MarkerSequence full = FullSequence(4, 10);
-  const MarkerSequence hidden = HideMarkers(full, {"M1", "M3"}, 2, 5);
-  const MarkerSequence gone = HideAllMarkers(full, 2, 5);
-  const MarkerSequence swapped = SwapMarkers(full, "M0", "M2", 2, 5);
+  const MarkerSequence hidden = testing::HideMarkers(full, {"M1", "M3"}, 2, 5);
+  const MarkerSequence gone = testing::HideAllMarkers(full, 2, 5);
+  const MarkerSequence swapped = testing::SwapMarkers(full, "M0", "M2", 2, 5);
   for (int k = 0; k < 10; ++k) {
     const bool inside = k >= 2 && k < 5;
     EXPECT_EQ(IsSeen(hidden.frame(k).col(1)), !inside);
@@ -91,7 +92,7 @@ TEST(OcclusionTest, HidesAndSwapsExactlyTheFramesThatAreNamed) {
 
 TEST(OcclusionTest, UnknownLabelIsNamed) {
   try {
-    HideMarkers(FullSequence(2, 2), {"M7"}, 0, 1);
+    testing::HideMarkers(FullSequence(2, 2), {"M7"}, 0, 1);
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("'M7'"), std::string::npos);

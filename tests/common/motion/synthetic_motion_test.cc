@@ -13,6 +13,7 @@
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
 #include "common/support/error.h"
+#include "tests/support/acrobatics.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter {
@@ -104,7 +105,7 @@ TEST_F(SyntheticMotionTest, HandsAndFeetStandStill) {
 }
 
 TEST_F(SyntheticMotionTest, CartwheelTurnsOnceThroughPitch) {
-  const PoseTrajectory motion = MakeCartwheel(model_);
+  const PoseTrajectory motion = testing::MakeCartwheel(model_);
   ASSERT_EQ(motion.num_frames(), 400);
   const std::vector<Vector3d> rpy = Rpy(motion);
   EXPECT_NEAR(rpy.front().y(), 0, 0.02);

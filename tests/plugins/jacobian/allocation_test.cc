@@ -6,10 +6,10 @@
 #include <cstdlib>
 
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "plugins/jacobian/jacobian_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/changed_markers.h"
 
 #if !defined(__SANITIZE_ADDRESS__) && defined(__GLIBC__)
 
@@ -52,8 +52,8 @@ TEST(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
   const KinematicModel model = s2kf::ScaledReferenceModel(1.8);
   const PoseTrajectory motion = MakeHandstand(model);
   MarkerSequence markers = SynthesizeMarkers(model, motion, MarkerErrors{}, 1).Slice(0, 150);
-  markers = OccludeShare(markers, 0.33, 30, 1);
-  markers = HideAllMarkers(markers, 100, 110);
+  markers = testing::OccludeShare(markers, 0.33, 30, 1);
+  markers = testing::HideAllMarkers(markers, 100, 110);
   JacobianSettings pull;
   pull.previous_weight = 0.2;
   JacobianSettings gradient;

@@ -11,13 +11,13 @@
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
-#include "common/motion/synthetic_motion.h"
 #include "common/study/optimal_fit.h"
 #include "common/study/tracking_quality.h"
 #include "common/support/error.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter::jacobian {
 namespace {
@@ -27,7 +27,7 @@ using Eigen::VectorXd;
 
 class JacobianConverterTest : public ::testing::Test {
  protected:
-  JacobianConverterTest() : motion_(MakeKickedHandstand(model_)) {}
+  JacobianConverterTest() : motion_(testing::MakeKickedHandstand(model_)) {}
 
   MarkerSequence MakeMarkers(const MarkerErrors& errors) const {
     return SynthesizeMarkers(model_, motion_, errors, 1);
@@ -175,7 +175,7 @@ TEST_F(JacobianConverterTest, AtHalfTheSpeedTheGradientHasTheOptimum) {
 }
 
 TEST_F(JacobianConverterTest, LimitsHoldWithAThirdOfTheMarkersMissing) {
-  const MarkerSequence markers = OccludeShare(MakeMarkers({}).Slice(0, 300), 0.33, 100, 1);
+  const MarkerSequence markers = testing::OccludeShare(MakeMarkers({}).Slice(0, 300), 0.33, 100, 1);
   for (const JacobianSettings& settings : {JacobianSettings(), Pull(), Gradient(2)}) {
     const ConversionResult result = Convert(markers, settings);
     ASSERT_EQ(result.trajectory.num_frames(), 300);
@@ -210,7 +210,7 @@ TEST_F(JacobianConverterTest, FewMarkersAreNoErrorOnceItRuns) {
 }
 
 TEST_F(JacobianConverterTest, WithoutMarkersThePostureStays) {
-  const MarkerSequence markers = HideAllMarkers(MakeMarkers({}).Slice(0, 60), 20, 40);
+  const MarkerSequence markers = testing::HideAllMarkers(MakeMarkers({}).Slice(0, 60), 20, 40);
   for (const JacobianSettings& settings : {JacobianSettings(), Pull(), Gradient(2)}) {
     const ConversionResult result = Convert(markers, settings);
     const Posture& before = result.trajectory.postures[19];
@@ -225,14 +225,14 @@ TEST_F(JacobianConverterTest, WithoutMarkersThePostureStays) {
 
 TEST_F(JacobianConverterTest, AHiddenMarkerIsLeftOut) {
   MarkerSequence markers = MakeMarkers(kExact).Slice(0, 40);
-  markers = HideMarkers(markers, {"LWTS", "RKNE"}, 10, 40);
+  markers = testing::HideMarkers(markers, {"LWTS", "RKNE"}, 10, 40);
   const ConversionResult result = Convert(markers, {});
   EXPECT_LT(SummarizeResiduals(result.residuals).max, 1e-3);
   EXPECT_EQ(result.frames[20].markers_seen, 51);
 }
 
 TEST_F(JacobianConverterTest, ThePullKeepsJointsThatLostTheirMarkersFromJumping) {
-  const MarkerSequence markers = OccludeAtRandom(MakeMarkers({}), {0.005, 100}, 2);
+  const MarkerSequence markers = testing::OccludeAtRandom(MakeMarkers({}), {0.005, 100}, 2);
   const ConversionResult free = Convert(markers, {});
   const ConversionResult held = Convert(markers, Pull());
   EXPECT_LT(LargestStep(held.trajectory), 0.5 * LargestStep(free.trajectory));

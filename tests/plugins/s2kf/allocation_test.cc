@@ -6,10 +6,10 @@
 #include <cstdlib>
 
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/changed_markers.h"
 
 #if !defined(__SANITIZE_ADDRESS__) && defined(__GLIBC__)
 
@@ -55,9 +55,9 @@ TEST_P(AllocationTest, TrackAllocatesNothingAfterTheFirstFrame) {
   const PoseTrajectory motion = MakeHandstand(model);
   // With gaps, a lost track and wrong markers, so that recovery and the gate are counted too.
   MarkerSequence markers = SynthesizeMarkers(model, motion, MarkerErrors{}, 1).Slice(0, 250);
-  markers = OccludeShare(markers, 0.33, 30, 1);
-  markers = HideAllMarkers(markers, 100, 150);
-  markers = SwapMarkers(markers, "RWTS", "LWTS", 60, 90);
+  markers = testing::OccludeShare(markers, 0.33, 30, 1);
+  markers = testing::HideAllMarkers(markers, 100, 150);
+  markers = testing::SwapMarkers(markers, "RWTS", "LWTS", 60, 90);
   for (int k = 180; k < 210; ++k) markers.frame(k).leftCols(5).array() += 0.3;
   for (const UpdateForm update : {UpdateForm::kRegression, UpdateForm::kExact}) {
     S2kfSettings settings;

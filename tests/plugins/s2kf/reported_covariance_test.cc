@@ -12,7 +12,6 @@
 
 #include "common/math/seeded_random.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/coverage.h"
 #include "tests/plugins/s2kf/session.h"

@@ -8,8 +8,8 @@
 #include "common/calibrate/calibration.h"
 #include "common/math/seeded_random.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "tests/plugins/s2kf/session_motions.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/synthetic_person.h"
 
 namespace mmm_converter::s2kf {
@@ -52,7 +52,7 @@ KinematicModel Session::Calibrate() const {
 }
 
 MarkerSequence HideBlocks(const MarkerSequence& recording, std::uint64_t seed) {
-  return OccludeShare(recording, kHiddenShare, kHiddenFrames, seed);
+  return testing::OccludeShare(recording, kHiddenShare, kHiddenFrames, seed);
 }
 
 std::vector<std::string> RightArm() {
@@ -63,7 +63,7 @@ std::vector<std::string> RightArm() {
 
 MarkerSequence SwapSides(MarkerSequence recording, Limb limb, int begin, int end) {
   const auto swap = [&](const std::string& name) {
-    recording = SwapMarkers(std::move(recording), "L" + name, "R" + name, begin, end);
+    recording = testing::SwapMarkers(std::move(recording), "L" + name, "R" + name, begin, end);
   };
   if (limb == Limb::kArm) {
     std::for_each(std::begin(kArmMarkers), std::end(kArmMarkers), swap);

@@ -10,8 +10,8 @@
 #include "common/io/mmm/mmm_motion.h"
 #include "common/math/rotation.h"
 #include "common/math/seeded_random.h"
-#include "common/motion/synthetic_motion.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/synthetic_person.h"
 
@@ -278,7 +278,7 @@ std::vector<NamedMotion> SessionMotions(const KinematicModel& model, int frames,
        {"quick motion", Walker(model, Running(), seed + 3000).Go(frames)},
        {"range of motion", testing::RangeOfMotion(model, frames / kRate, kRangeShare, seed + 500)},
        {"waving", MakeWaving(model, frames, seed)},
-       {"cartwheel", MakeCartwheel(model)}},
+       {"cartwheel", testing::MakeCartwheel(model)}},
       frames);
 }
 

@@ -10,12 +10,12 @@
 #include "common/convert/converter_config.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
-#include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/session.h"
 #include "tests/plugins/s2kf/session_motions.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
@@ -35,8 +35,8 @@ struct SwapScene {
     const KinematicModel person =
         is_exact ? model : FitToSubject(model, testing::DrawPerson(model, seed));
     const MarkerErrors errors = {0, is_exact ? 0 : 0.004, 0.3, 0.0005};
-    markers = SynthesizeMarkers(person, MakeCartwheel(model), errors, seed).Slice(0, 300);
-    if (!is_exact) markers = OccludeShare(std::move(markers), 0.1, 20, seed);
+    markers = SynthesizeMarkers(person, testing::MakeCartwheel(model), errors, seed).Slice(0, 300);
+    if (!is_exact) markers = testing::OccludeShare(std::move(markers), 0.1, 20, seed);
   }
 
   /// Somebody whom the model does not know, in one of SessionMotions.
@@ -147,7 +147,7 @@ TEST(MissingAtTheStartTest, TheTrackIsTheSameASecondAfterTheMarkersAreThere) {
   const ConversionResult clean = scene.Convert({}, scene.markers);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     MarkerSequence seen = scene.markers;
-    const MarkerSequence hidden = OccludeShare(scene.markers, 0.6, 10 * kMissing, seed);
+    const MarkerSequence hidden = testing::OccludeShare(scene.markers, 0.6, 10 * kMissing, seed);
     for (int k = 0; k < kMissing; ++k) seen.frame(k) = hidden.frame(k);
     const ConversionResult late = scene.Convert({}, seen);
     EXPECT_LE(scene.Largest(late, clean, kMissing + kSecond), kLeastError) << seed;

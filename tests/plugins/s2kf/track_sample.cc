@@ -6,10 +6,10 @@
 
 #include "common/fit/posture_fit.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
-#include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 
 namespace mmm_converter::s2kf {
 namespace {
@@ -23,8 +23,8 @@ void Print(const Eigen::Matrix3Xd& markers) {
 int Run(const std::string& method) {
   const KinematicModel model = ScaledReferenceModel(1.8);
   const MarkerSequence all =
-      SynthesizeMarkers(model, MakeKickedHandstand(model), MarkerErrors{}, 1);
-  const MarkerSequence markers = OccludeShare(all.Slice(0, kFrames), 0.2, 30, 1);
+      SynthesizeMarkers(model, testing::MakeKickedHandstand(model), MarkerErrors{}, 1);
+  const MarkerSequence markers = testing::OccludeShare(all.Slice(0, kFrames), 0.2, 30, 1);
   const std::vector<MarkerAssignment> assignments = AssignAll(model, markers);
   const std::vector<int> joints = MotionJoints(model, 44);
   S2kfSettings settings;

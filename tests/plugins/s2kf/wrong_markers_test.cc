@@ -9,10 +9,10 @@
 #include "common/io/mmm/mmm_motion.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
-#include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
@@ -31,7 +31,8 @@ constexpr double kRise = 0.003;
 enum class MotionName { kHandstand, kWalking };
 
 PoseTrajectory Motion(MotionName name) {
-  if (name == MotionName::kHandstand) return MakeKickedHandstand(ScaledReferenceModel(1.8));
+  if (name == MotionName::kHandstand)
+    return testing::MakeKickedHandstand(ScaledReferenceModel(1.8));
   const MmmMotionFile file =
       ReadMmmMotionFile(testing::SharedData("mmm/motions_legacy/walking_medium01_motion395.xml"));
   return LowPassed(file.motions.front().trajectory);
@@ -99,7 +100,7 @@ class WrongMarkersTest : public ::testing::TestWithParam<std::tuple<MotionName, 
   }
 
   void ExpectSwap(const std::string& a, const std::string& b, int begin, int end) {
-    const Outcome run = Track(SwapMarkers(markers_, a, b, begin, end));
+    const Outcome run = Track(testing::SwapMarkers(markers_, a, b, begin, end));
     EXPECT_LE(run.Mean(begin, end), clean_.Mean(begin, end) + kRise) << a << " " << b;
     ASSERT_EQ(run.incidents.size(), 1u) << a << " " << b;
     const MarkerIncident& found = run.incidents[0];
@@ -161,7 +162,7 @@ TEST_P(WrongMarkersTest, AWholeLimbWithTheOtherSidesLabels) {
   for (const auto& limb : {arm, leg}) {
     MarkerSequence seen = markers_;
     for (const std::string& name : limb) {
-      seen = SwapMarkers(seen, "L" + name, "R" + name, kBegin, kEnd);
+      seen = testing::SwapMarkers(seen, "L" + name, "R" + name, kBegin, kEnd);
     }
     const Outcome run = Track(seen);
     EXPECT_LE(run.Mean(kBegin, kEnd), clean_.Mean(kBegin, kEnd) + kRise);

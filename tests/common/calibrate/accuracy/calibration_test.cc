@@ -9,9 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "common/support/error.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/synthetic_person.h"
 
 namespace mmm_converter {
@@ -104,7 +105,7 @@ TEST(Calibration, DoesNoHarmWhereAMotionTellsLittle) {
   const KinematicModel model = testing::ScaledReferenceModel(kHeight);
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Trial trial(model, MakeHandstand(model), seed);
-    const Trial held_out(model, MakeCartwheel(model), seed);
+    const Trial held_out(model, testing::MakeCartwheel(model), seed);
     const KinematicModel fitted = FitToSubject(model, trial.Calibrate().subject);
     const double before = held_out.CentreError(model);
     const double after = held_out.CentreError(fitted);
@@ -122,7 +123,7 @@ TEST(Calibration, DoesNoHarmWhereAPersonHardlyMoves) {
   const KinematicModel model = testing::ScaledReferenceModel(kHeight);
   for (const std::uint64_t seed : {1, 2, 3, 4}) {
     const Trial trial(model, testing::RangeOfMotion(model, 10, 0.15, seed), seed);
-    const Trial held_out(model, MakeCartwheel(model), seed);
+    const Trial held_out(model, testing::MakeCartwheel(model), seed);
     const KinematicModel fitted = FitToSubject(model, trial.Calibrate().subject);
     const double before = held_out.CentreError(model);
     const double after = held_out.CentreError(fitted);
@@ -183,9 +184,9 @@ TEST(Calibration, SaysThatMarkersWerePutOnAnew) {
 TEST(Calibration, SwappedLabelsAndGapsDoNotBendIt) {
   const KinematicModel model = testing::ScaledReferenceModel(kHeight);
   Trial trial(model, testing::RangeOfMotion(model, 40, 0.7, 1), 1);
-  trial.recording() = SwapMarkers(trial.recording(), "LKNE", "RKNE", 1000, 1400);
-  trial.recording() = SwapMarkers(trial.recording(), "LFRA", "LWPS", 2000, 2600);
-  trial.recording() = OccludeShare(trial.recording(), 0.2, 100, 1);
+  trial.recording() = testing::SwapMarkers(trial.recording(), "LKNE", "RKNE", 1000, 1400);
+  trial.recording() = testing::SwapMarkers(trial.recording(), "LFRA", "LWPS", 2000, 2600);
+  trial.recording() = testing::OccludeShare(trial.recording(), 0.2, 100, 1);
   const Trial held_out(model, MakeHandstand(model), 1);
   EXPECT_LT(held_out.CentreError(FitToSubject(model, trial.Calibrate().subject)), 0.008);
 }
@@ -227,7 +228,7 @@ TEST(Calibration, SaysThatARecordingIsTooStill) {
 TEST(Calibration, NothingSeenIsTooShort) {
   const KinematicModel model = testing::ScaledReferenceModel(kHeight);
   Trial trial(model, testing::RangeOfMotion(model, 5, 0.7, 1), 1);
-  trial.recording() = HideAllMarkers(trial.recording(), 0, 500);
+  trial.recording() = testing::HideAllMarkers(trial.recording(), 0, 500);
   EXPECT_THAT(MessageOf(trial), HasSubstr("too short to calibrate on: 0 frames"));
 }
 

@@ -8,7 +8,7 @@
 #include <iostream>
 
 #include "common/io/mmm/mmm_model.h"
-#include "common/motion/synthetic_motion.h"
+#include "tests/support/acrobatics.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/synthetic_person.h"
 
@@ -30,8 +30,8 @@ TEST(PersonHeight, IsNearAndHonestOverManyPersons) {
     int within_two = 0;
     for (std::uint64_t seed = 301; seed < 301 + kPersons; ++seed) {
       const KinematicModel person = FitToSubject(model, testing::DrawPerson(model, seed));
-      const PoseTrajectory motion =
-          is_cartwheel ? MakeCartwheel(model) : testing::RangeOfMotion(model, 10, 0.7, seed);
+      const PoseTrajectory motion = is_cartwheel ? testing::MakeCartwheel(model)
+                                                 : testing::RangeOfMotion(model, 10, 0.7, seed);
       const MarkerSequence recording = testing::RecordPerson(person, motion, seed);
       const PersonHeight estimate = EstimatePersonHeight(
           testing::SetupOf(reference, joints, testing::AssignAll(reference, recording)), recording);

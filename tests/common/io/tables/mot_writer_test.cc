@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "common/io/tables/mot_writer.h"
+#include "common/io/tables/osim_tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,10 +9,10 @@
 #include <numeric>
 
 #include "common/math/seeded_random.h"
-#include "common/motion/occlusion.h"
 #include "common/support/error.h"
 #include "common/support/units.h"
 #include "tests/support/all_indices.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/synthetic_person.h"
 #include "tests/support/unnamed_points.h"
 
@@ -147,7 +147,7 @@ TEST(LabelRecordingTest, WhoLeavesAndReturnsIsFoundAgain) {
 
 TEST(LabelRecordingTest, ExchangedLabelsAreMendedAndNothingElseChanges) {
   const RecordedPerson made = Record(904, 3);
-  const MarkerSequence swapped = SwapMarkers(made.recording, "LANK", "RANK", 100, 200);
+  const MarkerSequence swapped = testing::SwapMarkers(made.recording, "LANK", "RANK", 100, 200);
   LabelOptions options;
   options.stored = AllIndices<LabelIx>(swapped.labels().size());
   const Labelling labelling =

@@ -13,10 +13,10 @@
 #include "common/io/recording/recording.h"
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/synthetic_person.h"
 
@@ -112,7 +112,7 @@ TEST(CalibratedTrackingRealFiles, HiddenMarkersOfKitRecordingsArePredicted) {
   for (const KitRecording& recording : kKitRecordings) {
     const KitTrial trial(recording);
     const KinematicModel person = FitToSubject(trial.model, trial.subject);
-    const MarkerSequence seen = OccludeShare(trial.second, 0.33, 10, 1);
+    const MarkerSequence seen = testing::OccludeShare(trial.second, 0.33, 10, 1);
     for (const char* name : {"s2kf_default", "s2kf_offline"}) {
       const Distances plain =
           Track(trial.model, trial.assignments, Shipped(name), seen, trial.second);
@@ -152,7 +152,7 @@ TEST(CalibratedTrackingRealFiles, SmoothingStaysWithTheFilterWhereItIsNotLinear)
   MMM_CONVERTER_NEEDS_SHARED_DATA()
   for (const KitRecording& recording : kKitRecordings) {
     const KitTrial trial(recording);
-    const MarkerSequence seen = OccludeShare(trial.second, 0.33, 10, 1);
+    const MarkerSequence seen = testing::OccludeShare(trial.second, 0.33, 10, 1);
     S2kfSettings settings = Shipped("s2kf_offline");
     settings.choose_process_noise_scale = false;
     const double smoothed = Track(trial.model, trial.assignments, settings, seen, seen).all;
@@ -176,7 +176,7 @@ void ExpectGoodWithHalfHidden(const std::string& name, const PoseTrajectory& mot
           .subject);
   const MarkerSequence all = testing::RecordPerson(truth, motion, 2);
   for (const std::uint64_t seed : {1, 2, 3}) {
-    const MarkerSequence seen = OccludeShare(all, 0.5, 100, seed);
+    const MarkerSequence seen = testing::OccludeShare(all, 0.5, 100, seed);
     const Distances d = Track(person, assignments, Shipped("s2kf_offline"), seen, all);
     std::printf(
         "[ measured ] %s, calibrated, smoothed, half hidden, seed %d: %.1f mm, hidden %.1f mm, "

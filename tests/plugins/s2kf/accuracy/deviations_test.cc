@@ -21,12 +21,12 @@
 #include "common/model/forward_kinematics.h"
 #include "common/motion/anatomical_angles.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/coverage.h"
 #include "tests/plugins/s2kf/session.h"
 #include "tests/plugins/s2kf/session_motions.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
@@ -298,7 +298,7 @@ TEST_P(CalibratedDeviationsTest, AreHonestOfAnArmThatIsHidden) {
     const std::vector<NamedMotion> motions = SessionMotions(session.model, kHiddenFrames, seed);
     for (const int m : {i % kMotions, (i + 2) % kMotions}) {
       const PoseTrajectory& motion = motions[m].motion;
-      const MarkerSequence seen = HideMarkers(session.Record(motion), RightArm(), 40, 240);
+      const MarkerSequence seen = testing::HideMarkers(session.Record(motion), RightArm(), 40, 240);
       const PoseTrajectory estimate = Convert(known, session.joints, seen).trajectory;
       for (const char* joint : {"RS", "RE", "RW"}) {
         hidden[i].Add(known, session.joints, motion, estimate, 40, 290, joint);

@@ -13,10 +13,10 @@
 #include "common/model/forward_kinematics.h"
 #include "common/motion/marker_residuals.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
-#include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
@@ -75,7 +75,7 @@ SmoothedScene SmoothedQuickMotion() {
   return {RecordedScene("test_mmm_subject314_40joints_100Hz.xml"), 40, 2};
 }
 SmoothedScene SmoothedHandstand() {
-  return {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1};
+  return {testing::MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1};
 }
 
 MatrixXd Angles(const PoseTrajectory& trajectory) {
@@ -199,7 +199,7 @@ const MarkerErrors kCalibrated = {0, 0.004, 0.25, 0.0001};
 TEST(SmoothingTest, SmoothedHandstand) { Measure("handstand", SmoothedHandstand()); }
 
 TEST(SmoothingTest, Cartwheel) {
-  Measure("cartwheel", {MakeCartwheel(ScaledReferenceModel(1.8)), 44, 3});
+  Measure("cartwheel", {testing::MakeCartwheel(ScaledReferenceModel(1.8)), 44, 3});
 }
 
 TEST(SmoothingRealFilesTest, WalkingIsAsSmoothAsTheTruthWhereMarkersShowIt) {
@@ -226,7 +226,7 @@ TEST(SmoothingRealFilesTest, QuickMotionIsAsSmoothAsTheTruthWhereMarkersShowIt) 
 
 /// Exactly half of all markers hidden throughout; distances to all of them.
 void ExpectHalfHiddenIsBorne(const std::string& name, const SmoothedScene& scene) {
-  const MarkerSequence seen = OccludeShare(scene.markers, 0.5, 100, 1);
+  const MarkerSequence seen = testing::OccludeShare(scene.markers, 0.5, 100, 1);
   const ConversionResult result = scene.Convert(OfflineSettings(), seen);
   double mean = 0;
   double worst = 0;
@@ -249,8 +249,8 @@ void ExpectHalfHiddenIsBorne(const std::string& name, const SmoothedScene& scene
 }
 
 TEST(SmoothingTest, HalfOfTheMarkersHiddenOnTheHandstand) {
-  ExpectHalfHiddenIsBorne("handstand",
-                          {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1, kCalibrated});
+  ExpectHalfHiddenIsBorne(
+      "handstand", {testing::MakeKickedHandstand(ScaledReferenceModel(1.8)), 44, 1, kCalibrated});
 }
 
 TEST(SmoothingRealFilesTest, HalfOfTheMarkersHiddenWhileWalking) {
@@ -270,9 +270,9 @@ double AccelerationError(const SmoothedScene& scene, const S2kfSettings& setting
 // not known that they are worn there.
 TEST(SmoothingTest, MarkersThatHideAndReturnMoveNoLimb) {
   for (const int seed : {3, 4, 5}) {
-    const SmoothedScene scene = {MakeKickedHandstand(ScaledReferenceModel(1.8)), 44,
+    const SmoothedScene scene = {testing::MakeKickedHandstand(ScaledReferenceModel(1.8)), 44,
                                  static_cast<std::uint64_t>(seed)};
-    const MarkerSequence seen = OccludeShare(scene.markers, 0.1, 30, seed);
+    const MarkerSequence seen = testing::OccludeShare(scene.markers, 0.1, 30, seed);
     S2kfSettings settings = OfflineSettings();
     const double learnt = AccelerationError(scene, settings, seen);
     settings.learn_places = false;
@@ -287,7 +287,7 @@ TEST(SmoothingTest, MarkersThatHideAndReturnMoveNoLimb) {
 
 TEST(SmoothingTest, TheResultDoesNotDependOnTheChunks) {
   const SmoothedScene scene = SmoothedHandstand();
-  const MarkerSequence seen = OccludeShare(scene.markers.Slice(0, 100), 0.3, 20, 1);
+  const MarkerSequence seen = testing::OccludeShare(scene.markers.Slice(0, 100), 0.3, 20, 1);
   S2kfSettings settings = OfflineSettings();
   settings.choose_process_noise_scale = false;
   const ConversionResult whole = scene.Convert(settings, seen);
@@ -304,7 +304,7 @@ TEST(SmoothingTest, EndsWithTheFilterAndIsMoreCertainBefore) {
   const SmoothedScene scene = SmoothedHandstand();
   S2kfSettings settings = OfflineSettings();
   settings.choose_process_noise_scale = false;
-  const MarkerSequence seen = OccludeShare(scene.markers.Slice(0, 300), 0.3, 50, 1);
+  const MarkerSequence seen = testing::OccludeShare(scene.markers.Slice(0, 300), 0.3, 50, 1);
   const ConversionResult smoothed = scene.Convert(settings, seen);
   const ConversionResult filtered = scene.Convert(WithoutSmoothing(settings), seen);
   EXPECT_EQ(smoothed.trajectory.postures.back().joint_angles,
@@ -318,7 +318,7 @@ TEST(SmoothingTest, EndsWithTheFilterAndIsMoreCertainBefore) {
 
 TEST(SmoothingTest, LeadingFramesWithoutMarkersTakeTheFirstSmoothedPosture) {
   const SmoothedScene scene = SmoothedHandstand();
-  const MarkerSequence seen = HideAllMarkers(scene.markers.Slice(0, 80), 0, 10);
+  const MarkerSequence seen = testing::HideAllMarkers(scene.markers.Slice(0, 80), 0, 10);
   const ConversionResult result = scene.Convert(OfflineSettings(), seen);
   for (int k = 0; k < 10; ++k) {
     EXPECT_EQ(result.trajectory.postures[k].joint_angles,

@@ -8,10 +8,11 @@
 #include "common/math/rotation.h"
 #include "common/model/model_scaling.h"
 #include "common/motion/marker_synthesis.h"
-#include "common/motion/occlusion.h"
 #include "common/motion/synthetic_motion.h"
 #include "plugins/s2kf/s2kf_converter.h"
 #include "tests/plugins/s2kf/tracking_run.h"
+#include "tests/support/acrobatics.h"
+#include "tests/support/changed_markers.h"
 #include "tests/support/shared_data.h"
 
 namespace mmm_converter::s2kf {
@@ -75,7 +76,7 @@ TEST(TrackingTest, HandstandFollowsTheOptimumInsideTheLimits) {
 }
 
 TEST(TrackingTest, CartwheelGoesThroughPitch90) {
-  const Scene scene(MakeCartwheel(ScaledReferenceModel(kHeight)), 44, 3);
+  const Scene scene(testing::MakeCartwheel(ScaledReferenceModel(kHeight)), 44, 3);
   const TrackedRun run = scene.Run(S2kfSettings{}, scene.markers);
   Report("cartwheel", run);
   EXPECT_EQ(run.BadFrames(0, static_cast<int>(run.distance.size())), 0);
@@ -148,7 +149,7 @@ TEST(TrackingTest, AThirdOfTheMarkersHiddenThroughout) {
   double worst_mean = 0;
   double worst_frame = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const MarkerSequence seen = OccludeShare(scene.markers, 0.33, 100, seed);
+    const MarkerSequence seen = testing::OccludeShare(scene.markers, 0.33, 100, seed);
     const TrackedRun run = scene.Run(S2kfSettings{}, seen);
     EXPECT_TRUE(run.inside_limits);
     mean += run.MeanDistance(0, n) / 20;
@@ -188,22 +189,23 @@ class RecoveryTest : public ::testing::TestWithParam<bool> {
 TEST_P(RecoveryTest, AnArmHiddenForASecond) {
   const std::vector<std::string> arm = {"RUPA", "RAEL", "RAOL", "RFRA", "RWTS",
                                         "RWPS", "RHTS", "RHPS", "RIFD"};
-  ExpectRecovery("arm hidden", HideMarkers(scene_->markers, arm, 100, 200), 200);
+  ExpectRecovery("arm hidden", testing::HideMarkers(scene_->markers, arm, 100, 200), 200);
 }
 
 TEST_P(RecoveryTest, AllMarkersHiddenForHalfASecond) {
-  ExpectRecovery("all hidden", HideAllMarkers(scene_->markers, 100, 150), 150);
+  ExpectRecovery("all hidden", testing::HideAllMarkers(scene_->markers, 100, 150), 150);
 }
 
 TEST_P(RecoveryTest, TwoLabelsSwappedFor30Frames) {
-  ExpectRecovery("wrist and knee swapped", SwapMarkers(scene_->markers, "RWTS", "LKNE", 100, 130),
+  ExpectRecovery("wrist and knee swapped",
+                 testing::SwapMarkers(scene_->markers, "RWTS", "LKNE", 100, 130), 130);
+  ExpectRecovery("wrists swapped", testing::SwapMarkers(scene_->markers, "RWTS", "LWTS", 100, 130),
                  130);
-  ExpectRecovery("wrists swapped", SwapMarkers(scene_->markers, "RWTS", "LWTS", 100, 130), 130);
 }
 
 TEST_P(RecoveryTest, NoPelvisMarkerInTheFirst20Frames) {
   const std::vector<std::string> pelvis = {"LASI", "RASI", "LPSI", "RPSI", "LHIP", "RHIP", "L3"};
-  ExpectRecovery("pelvis hidden", HideMarkers(scene_->markers, pelvis, 0, 20), 20);
+  ExpectRecovery("pelvis hidden", testing::HideMarkers(scene_->markers, pelvis, 0, 20), 20);
 }
 
 INSTANTIATE_TEST_SUITE_P(Handstand, RecoveryTest, ::testing::Values(false));

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "common/study/hiding.h"
+#include "common/motion/hiding.h"
 
 #include <gtest/gtest.h>
 
 namespace mmm_converter {
 namespace {
 
-constexpr int kMarkers = 50;
-constexpr int kFrames = 675;
+constexpr int kHidingMarkers = 50;
+constexpr int kHidingFrames = 675;
 
-TEST(Hiding, NoneHidesNothing) { EXPECT_FALSE(DrawHidden({}, kMarkers, kFrames, 1).any()); }
+TEST(Hiding, NoneHidesNothing) {
+  EXPECT_FALSE(DrawHidden({}, kHidingMarkers, kHidingFrames, 1).any());
+}
 
 TEST(Hiding, TheSeedDecides) {
   const Hiding paper{HidingModel::kPaper, 0.005, 100};
-  const HiddenMarkers first = DrawHidden(paper, kMarkers, kFrames, 1);
-  EXPECT_EQ(first, DrawHidden(paper, kMarkers, kFrames, 1));
-  EXPECT_NE(first, DrawHidden(paper, kMarkers, kFrames, 2));
+  const HiddenMarkers first = DrawHidden(paper, kHidingMarkers, kHidingFrames, 1);
+  EXPECT_EQ(first, DrawHidden(paper, kHidingMarkers, kHidingFrames, 1));
+  EXPECT_NE(first, DrawHidden(paper, kHidingMarkers, kHidingFrames, 2));
 }
 
 TEST(Hiding, StationaryHidesTheShareInEveryFrame) {
   const HiddenMarkers hidden =
-      DrawHidden({HidingModel::kStationary, 0.3, 100}, kMarkers, kFrames, 1);
+      DrawHidden({HidingModel::kStationary, 0.3, 100}, kHidingMarkers, kHidingFrames, 1);
   const Eigen::VectorXd counts = hidden.cast<double>().colwise().sum();
   EXPECT_EQ(counts.minCoeff(), 15);
   EXPECT_EQ(counts.maxCoeff(), 15);
@@ -31,7 +33,7 @@ TEST(Hiding, PaperHidesAThirdOnceItIsStationary) {
   constexpr int kRuns = 40;
   for (int run = 0; run < kRuns; ++run) {
     const HiddenMarkers hidden =
-        DrawHidden({HidingModel::kPaper, 0.005, 100}, kMarkers, kFrames, run);
+        DrawHidden({HidingModel::kPaper, 0.005, 100}, kHidingMarkers, kHidingFrames, run);
     sum += hidden.rightCols(300).cast<double>().mean() / kRuns;
   }
   // p m / (1 + p m) = 1/3; 40 runs of 50 markers that hide about twice each: 0.01 is 1 sigma.
