@@ -13,6 +13,7 @@
 #include "common/contacts/person_mass.h"
 #include "common/forces/external_loads.h"
 #include "common/forces/plate_checks.h"
+#include "common/motion/slow_feet.h"
 #include "common/support/atomic_file.h"
 #include "common/support/error.h"
 #include "tests/support/test_folder.h"
