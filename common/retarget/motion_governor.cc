@@ -92,7 +92,7 @@ MotionGovernor::MotionGovernor(MotionLimits limits) : limits_(std::move(limits))
 }
 
 void MotionGovernor::Start(const Posture& posture) {
-  posture_ = target_before_ = target_ = posture;
+  posture_ = before_ = target_before_ = target_ = posture;
   elapsed_ = joint_blend_ = root_blend_ = 0;
   speed_.setZero();
   has_started_ = true;

@@ -93,6 +93,12 @@ RobotFollower::RobotFollower(std::shared_ptr<const KinematicModel> person, const
   for (Eigen::VectorXd* one : {&lower_, &upper_, &place_, &reached_, &speed_, &other_speed_}) {
     one->setZero(H_.rows());
   }
+  before_ = other_posture_ = other_before_ = posture_;
+  // Rows of feet get their size here, not where joints are late for the first time.
+  for (Aim& aim : standing_.aims) aim.weight.setOnes();
+  H_.setZero();
+  b_.setZero();
+  standing_equations_.AddAims(0, posture_, &H_, &b_);
 }
 
 void RobotFollower::WatchPerson(double time) {
