@@ -172,7 +172,7 @@ const std::vector<OptionGroup> kOtherOptions = {
       {"subject-out", "FILE", "with --self-calibrate: also write the person", ""}}},
     {"Robot that follows",
      {{"joint-speed", "RAD/S", "the most of any joint; default: its own, or 20", ""},
-      {"joint-acceleration", "RAD/S2", "the most of any joint; default: 250", ""},
+      {"joint-acceleration", "RAD/S2", "the most of any joint; default: 200", ""},
       {"root-speed", "M/S", "the most of its root; default: 6", ""},
       {"rest-after", "S",
        "how long it holds where it is while nobody is seen, before it goes to its posture at rest; "

@@ -8,8 +8,9 @@
 namespace mmm_converter {
 namespace {
 
-constexpr double kSpan = 0.01;    // [s] until a frame, of its speed
-constexpr double kLevelTime = 1;  // [s] in which the level follows
+constexpr double kSpan = 0.01;  // [s] until a frame, of its speed
+// [s] in which the level follows: at first it is the model's, up to 60 mm off.
+constexpr double kFirstLevelTime = 0.1, kLevelTime = 1;
 
 }  // namespace
 
@@ -31,9 +32,12 @@ void PointWatch::Take(const Eigen::Vector3d& p_W, double time) {
   p_ = p_W;
   is_slow_ = speed < kStillSpeed;
   height_ = p_W.z() - level_ - kLowHeight;
-  if (is_slow_ && height_ <= 0) {
+  if (height_ <= 0 && (is_slow_ || (!has_stood_ && speed < kComesBelow))) {
+    if (is_slow_ && !has_stood_) told_for_ = 0;
+    has_stood_ |= is_slow_;
+    told_for_ = std::clamp(told_for_ + dt, kFirstLevelTime, kLevelTime);
     const bool is_below = p_W.z() < level_ - kLowHeight;
-    const double part = is_below ? 1 : std::min(1.0, dt / kLevelTime);
+    const double part = is_below ? 1 : std::min(1.0, dt / told_for_);
     level_ += part * (p_W.z() - level_);
   }
   const double height = p_W.z() - level_;

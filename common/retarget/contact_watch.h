@@ -40,8 +40,10 @@ class PointWatch {
   int count_ = 0, next_ = 0;
   Eigen::Vector3d p_ = Eigen::Vector3d::Zero(), velocity_ = Eigen::Vector3d::Zero();
   double level_;
-  double height_ = 0;  // above what still tells the level [m]
+  double height_ = 0;    // above what still tells the level [m]
+  double told_for_ = 0;  // [s] that frames told the level
   bool is_on_ = false, is_slow_ = false;
+  bool has_stood_ = false;  // still; feet of runners hardly do
 };
 
 }  // namespace mmm_converter

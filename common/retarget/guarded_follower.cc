@@ -31,8 +31,7 @@ GuardedFollower::GuardedFollower(std::shared_ptr<const KinematicModel> person, c
       body_(body),
       rate_(rate > 0 ? rate : 100),
       rest_after_(options.rest_after.value_or(kRestAfter)),
-      follower_(std::move(person), robot, body, rate, LimitsOf(robot, options),
-                before ? &before->follower_ : nullptr),
+      follower_(std::move(person), robot, body, rate, before ? &before->follower_ : nullptr),
       governor_(before != nullptr ? before->governor_ : MotionGovernor(LimitsOf(robot, options))),
       robot_state_(robot.model) {
   if (before == nullptr) return;
@@ -87,8 +86,12 @@ const Posture& GuardedFollower::Follow(const Posture& person, double time) {
     governor_.Blend(goal, kShortestReturn, kLongestReturn);
     state_ = FollowState::kReturns;
   }
+  if (follower_.has_joined()) governor_.Join();
   governor_.Go(goal, dt);
-  if (!governor_.is_blending()) state_ = FollowState::kTracks;
+  if (!governor_.is_blending()) {
+    state_ = FollowState::kTracks;
+    if (governor_.is_behind()) governor_.Correct(follower_.StandFirm(governor_, dt), dt);
+  }
   return Finish(dt);
 }
 

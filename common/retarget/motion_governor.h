@@ -42,17 +42,28 @@ class MotionGovernor {
   explicit MotionGovernor(MotionLimits limits);
 
   const Posture& posture() const { return posture_; }
+  const Posture& before() const { return before_; }  ///< the last frame
   bool has_started() const { return has_started_; }
   double fastest() const { return limits_.speed[0]; }  ///< of the root [m/s]
   bool is_blending() const { return elapsed_ < longest_blend(); }
 
   void Start(const Posture& posture);  ///< stands there
   void Stop() { speed_.setZero(); }    ///< stands where it is
+  /// The next target goes on from where it is.
+  void Join() { target_before_ = posture_; }
   /// Targets are another motion from now on, reached in a time [s] between these; more where the
   /// root has far to go.
   void Blend(const Posture& target, double shortest, double longest);
   void Go(const Posture& target, double dt);
   void Brake(double dt);
+
+  /// Of the last Go: whether it got where it was to.
+  bool is_behind() const { return is_behind_; }
+  /// How far it may have gone in the last frame.
+  const Eigen::VectorXd& least_way() const { return least_; }
+  const Eigen::VectorXd& most_way() const { return most_; }
+  /// It went there instead, which is as far as it may.
+  void Correct(const Posture& posture, double dt);
 
  private:
   double longest_blend() const { return std::max(joint_blend_, root_blend_); }
@@ -60,11 +71,11 @@ class MotionGovernor {
   void Move(double dt);
 
   MotionLimits limits_;
-  Posture posture_, target_, target_before_;
-  Eigen::VectorXd speed_, wanted_, target_speed_, missing_;
+  Posture posture_, before_, target_, target_before_;
+  Eigen::VectorXd speed_, wanted_, target_speed_, missing_, least_, most_;
   Eigen::VectorXd off_, off_speed_;                        // of a blend, where it began
   double elapsed_ = 0, joint_blend_ = 0, root_blend_ = 0;  // [s]
-  bool has_started_ = false;
+  bool has_started_ = false, is_behind_ = false;
 };
 
 }  // namespace mmm_converter

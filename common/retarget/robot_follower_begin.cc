@@ -37,10 +37,9 @@ void RobotFollower::FindFloor() {
 
 void RobotFollower::FitAnew() {
   const int joints = robot_.model.num_joints();
-  for (int j = 0; j < joints; ++j) {
-    lower_[j] = robot_.model.joint(j).lower;
-    upper_[j] = robot_.model.joint(j).upper;
-  }
+  Bound(INFINITY);
+  const Eigen::VectorXd lower = lower_.tail(joints), upper = upper_.tail(joints);
+  before_ = posture_;
   const Posture upright = FirstPosture(person_posture_, scale_, robot_, body_);
   if (!has_begun_) {
     posture_ = StartTrajectory(problem_, upright).front();
@@ -56,12 +55,12 @@ void RobotFollower::FitAnew() {
   std::array<Posture, 4> starts = {upright, leaning, leaning, upright};
   starts[0].joint_angles = starts[1].joint_angles = posture_.joint_angles;
   starts[2].joint_angles = body_.rest;
-  starts[3].joint_angles = 0.7 * body_.rest + 0.15 * (lower_.cwiseMax(-3) + upper_.cwiseMin(3));
+  starts[3].joint_angles = 0.7 * body_.rest + 0.15 * (lower.cwiseMax(-3) + upper.cwiseMin(3));
   Posture best = posture_;
   double least = INFINITY;
   for (std::size_t n = 0; n < starts.size(); ++n) {
     posture_ = starts[n];
-    posture_.joint_angles = posture_.joint_angles.cwiseMax(lower_).cwiseMin(upper_);
+    posture_.joint_angles = posture_.joint_angles.cwiseMax(lower).cwiseMin(upper);
     Solve(kStepsAnew, 1 / rate_);
     const double cost = equations_.CostOf(0, posture_) / (n < kAsBefore ? 1 : kWorthIt);
     if (!(cost < least)) continue;
@@ -82,6 +81,7 @@ void RobotFollower::Begin(double time) {
     foot.drawn_for = INFINITY;
   }
   raised_for_ = far_for_ = 0;
+  is_behind_ = false;
   WatchPerson(time);
   if (!is_known) FindFloor();
   SetAims(1 / rate_);

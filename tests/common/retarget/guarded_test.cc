@@ -227,6 +227,49 @@ TEST(GuardedFollowerTest, ASwingInTheFirstFrameIsNoStance) {
   }
 }
 
+TEST(GuardedFollowerTest, FeetStandWhileJointsAreLate) {
+  const Robot robot = MakeBiped({});
+  FollowOptions late;
+  late.joint_acceleration = 16;
+  Following following(robot, late), in_time(robot);
+  double most = 0;
+  for (int k = 0; k < 400; ++k)
+    most = std::max(most, Degrees(following.Follow(k), in_time.Follow(k)));
+  EXPECT_GT(most, 5);
+  EXPECT_LT(following.Figures().slide, 0.01);
+  EXPECT_LE(following.meter.most_rise, 16 * (1 + 1e-6));
+}
+
+TEST(GuardedFollowerTest, FeetTurnWithWhomTurnsOnTheSpot) {
+  const Robot robot = MakeBiped({});
+  Following following(robot);
+  const Posture person = following.PersonAt(0);
+  Posture first, last;
+  for (int k = 0; k < 400; ++k) {
+    Posture turned = person;
+    const double angle = std::clamp((k - 50) / 200.0, 0.0, 1.0) * std::numbers::pi;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()));
+    turned.position = turn * person.position;
+    turned.orientation = turn * person.orientation;
+    last = following.Follow(k, turned);
+    EXPECT_TRUE(k < 10 || following.follower().stands(0)) << k;
+    if (k == 50) first = last;
+  }
+  // Feet stay behind by what they may.
+  EXPECT_LT(Degrees(first, last), 40);
+  const Eigen::AngleAxisd between(first.orientation.conjugate() * last.orientation);
+  EXPECT_NEAR(between.angle(), std::numbers::pi, 0.1);
+}
+
+TEST(PointWatchTest, ALevelIsLearntWhereAFootStands) {
+  PointWatch heel(0.02);
+  for (int k = 0; k < 100; ++k) {
+    heel.Take(Eigen::Vector3d(0, 0, 0.07), k * kFrame);
+    EXPECT_TRUE(k < 20 || heel.is_on()) << k;
+  }
+  EXPECT_NEAR(heel.level(), 0.07, 5e-3);
+}
+
 TEST(GuardedFollowerTest, ALostPersonsRobotStopsAndThenRests) {
   const Robot robot = MakeBiped({});
   FollowOptions options;
