@@ -11,6 +11,7 @@
 #include "common/calibrate/offset_prior.h"
 #include "common/math/dense.h"
 #include "common/math/square.h"
+#include "common/model/kit_joints.h"
 #include "common/support/parallel.h"
 
 namespace mmm_converter {
@@ -108,8 +109,12 @@ VectorXd PostureInformation(const BodyKinematics& kinematics, const CalibrationO
   VectorXd deviations = VectorXd::Constant(3 + static_cast<Eigen::Index>(joints.size()),
                                            options.mean_posture_deviation);
   for (std::size_t j = 0; j < joints.size(); ++j) {
-    const bool is_rotation = std::abs(kinematics.model().joint(joints[j]).axis.z()) > kAlongLimb;
-    if (is_rotation) deviations[static_cast<Eigen::Index>(3 + j)] *= kOfRotation;
+    const Segment& joint = kinematics.model().joint(joints[j]);
+    const std::string limb = LimbOfJoint(joint.name);
+    double& deviation = deviations[static_cast<Eigen::Index>(3 + j)];
+    if (std::abs(joint.axis.z()) > kAlongLimb) deviation *= kOfRotation;
+    // Trunk and neck have two joints each about the same axis.
+    if (limb == "spine" || limb == "head") deviation /= std::sqrt(2);
   }
   return deviations.cwiseAbs2().cwiseInverse();
 }

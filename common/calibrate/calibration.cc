@@ -269,12 +269,13 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
       FitOffsetsInTurns(model, joints, markers, &frames, options.between_steps);
   result.stands = !CheckMovement(model, joints, frames, options.may_stand, warnings);
   body.offsets = first.offsets;
-  std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   const VectorXd noise_scales = NoiseScales(recordings, markers);
+  if (options.places_by_noise) FitPosturesByPlaces(model, joints, markers, noise_scales, &frames);
+  std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   // The median offsets of a posture that is not known are no better start than known places.
   if (options.places_by_noise) {
     body.offsets.setZero();
-    FitPosturesByPlaces(model, joints, markers, noise_scales, &chosen);
+    for (CalibrationFrame& frame : chosen) frame.posture = frame.by_places;
   }
   const BodyFitResult fit = FitBody(kinematics, options, noise_scales, &chosen, &body);
 

@@ -76,6 +76,34 @@ std::vector<double> BoundsOfRecordings(const std::vector<CalibrationFrame>& fram
   return bounds;
 }
 
+VectorXd FitPostures(const MarkerKinematics& kinematics, const VectorXd& scale,
+                     std::vector<CalibrationFrame>* frames,
+                     const std::function<void()>& between_steps) {
+  PostureFitOptions options;
+  options.robust_distance = kRobustDistance;
+  PostureSearch search(kinematics);
+  VectorXd distance(frames->size());
+  int assembled = -1;  // recording
+  for (std::size_t k = 0; k < frames->size(); ++k) {
+    if (between_steps) between_steps();
+    CalibrationFrame& frame = (*frames)[k];
+    PostureFit::Result fit;
+    if (frame.posture.joint_angles.size() > 0) {
+      fit = search.fit().Solve(frame.z, scale, options, &frame.posture);
+    } else if (assembled != frame.recording) {
+      fit = search.Assemble(frame.z, scale, options, kSearchAttempts, &frame.posture);
+      assembled = frame.recording;
+    } else {
+      frame.posture = (*frames)[k - 1].posture;
+      search.fit().Solve(frame.z, scale, options, &frame.posture);
+      search.Improve(frame.z, scale, options, &frame.posture);
+      fit = search.fit().Evaluate(frame.z, scale, options, frame.posture);
+    }
+    distance[static_cast<Eigen::Index>(k)] = fit.mean_distance;
+  }
+  return distance;
+}
+
 }  // namespace
 
 std::vector<MarkerIx> UsedMarkers(const std::vector<CalibrationRecording>& recordings) {
@@ -117,43 +145,16 @@ VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints
                      const std::vector<MarkerIx>& markers, std::vector<CalibrationFrame>* frames,
                      const std::function<void()>& between_steps) {
   const MarkerKinematics kinematics(model, joints, markers);
-  const VectorXd scale = VectorXd::Ones(kinematics.num_markers());
-  PostureFitOptions options;
-  options.robust_distance = kRobustDistance;
-  PostureSearch search(kinematics);
-  VectorXd distance(frames->size());
-  int assembled = -1;  // recording
-  for (std::size_t k = 0; k < frames->size(); ++k) {
-    if (between_steps) between_steps();
-    CalibrationFrame& frame = (*frames)[k];
-    PostureFit::Result fit;
-    if (frame.posture.joint_angles.size() > 0) {
-      fit = search.fit().Solve(frame.z, scale, options, &frame.posture);
-    } else if (assembled != frame.recording) {
-      fit = search.Assemble(frame.z, scale, options, kSearchAttempts, &frame.posture);
-      assembled = frame.recording;
-    } else {
-      frame.posture = (*frames)[k - 1].posture;
-      search.fit().Solve(frame.z, scale, options, &frame.posture);
-      search.Improve(frame.z, scale, options, &frame.posture);
-      fit = search.fit().Evaluate(frame.z, scale, options, frame.posture);
-    }
-    distance[static_cast<Eigen::Index>(k)] = fit.mean_distance;
-  }
-  return distance;
+  return FitPostures(kinematics, VectorXd::Ones(kinematics.num_markers()), frames, between_steps);
 }
 
 void FitPosturesByPlaces(const KinematicModel& model, const std::vector<int>& joints,
                          const std::vector<MarkerIx>& markers, const VectorXd& noise_scale,
                          std::vector<CalibrationFrame>* frames) {
-  const MarkerKinematics kinematics(model, joints, markers);
-  PostureFitOptions options;
-  options.robust_distance = kRobustDistance;
-  PostureFit fit(kinematics);
-  for (CalibrationFrame& frame : *frames) {
-    frame.by_places = frame.posture;
-    fit.Solve(frame.z, noise_scale, options, &frame.by_places);
-  }
+  std::vector<CalibrationFrame> anew = *frames;
+  for (CalibrationFrame& frame : anew) frame.posture = {};
+  FitPostures(MarkerKinematics(model, joints, markers), noise_scale, &anew, {});
+  for (std::size_t k = 0; k < anew.size(); ++k) (*frames)[k].by_places = anew[k].posture;
 }
 
 Matrix3Xd MedianResiduals(const KinematicModel& model, const std::vector<int>& joints,

@@ -35,7 +35,7 @@ Eigen::VectorXd FitPostures(const KinematicModel& model, const std::vector<int>&
                             std::vector<CalibrationFrame>* frames,
                             const std::function<void()>& between_steps = {});
 
-/// Sets the frames' by_places, from their postures. noise_scale: how well each place is known.
+/// Finds the frames' by_places. noise_scale: how well each place is known.
 void FitPosturesByPlaces(const KinematicModel& model, const std::vector<int>& joints,
                          const std::vector<MarkerIx>& markers, const Eigen::VectorXd& noise_scale,
                          std::vector<CalibrationFrame>* frames);

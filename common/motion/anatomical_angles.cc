@@ -244,6 +244,37 @@ std::vector<Row> RowsOf(const KinematicModel& model, const std::vector<JointFram
   return rows;
 }
 
+/// Ry(a) Rx(b) Rz(c) is Ry(a + pi) Rx(pi - b) Rz(c + pi) too, and near b of 90 degrees one runs
+/// into the other. Between these times the angles of a joint are those that are nearest 0, as a
+/// whole: an arm that hangs after it was raised to the side hangs at 0.
+void ChooseTurns(Eigen::Matrix3Xd* turns) {
+  constexpr double kClear = 0.26;  // the cosine: 15 degrees from there
+  const Eigen::Index frames = turns->cols();
+  const auto is_clear = [&](Eigen::Index k) { return std::abs(std::cos((*turns)(1, k))) > kClear; };
+  // The same turns, as a whole nearest 0.
+  const auto nearest = [](Eigen::Matrix3Xd run) {
+    for (auto row : run.rowwise()) {
+      row.array() -= 2 * std::numbers::pi * std::round(row.mean() / (2 * std::numbers::pi));
+    }
+    return run;
+  };
+  for (Eigen::Index begin = 0, end = 0; begin < frames; begin = end) {
+    end = begin + 1;
+    if (!is_clear(begin)) continue;
+    while (end < frames && is_clear(end)) ++end;
+    auto run = turns->middleCols(begin, end - begin);
+    Eigen::Matrix3Xd other = run;
+    other.row(1) *= -1;
+    other.array() += std::numbers::pi;
+    const Eigen::Matrix3Xd one = nearest(run);
+    other = nearest(std::move(other));
+    run = other.cwiseAbs().sum() < one.cwiseAbs().sum() ? other : one;
+  }
+  for (Eigen::Index k = 1; k < frames; ++k) {
+    if (!is_clear(k)) turns->col(k) = ContinuousRpy(turns->col(k), turns->col(k - 1));
+  }
+}
+
 /// The errors of a motion, by [6; joints of the model].
 class ErrorsOfModel {
  public:
@@ -318,23 +349,31 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
   angles.values.resize(count, motion.num_frames());
   if (has_deviations) angles.deviations.resize(count, motion.num_frames());
   ErrorsOfModel errors(model, motion);
-  std::vector<Vector3d> turns(joints.size(), Vector3d::Zero());
+  std::vector<Eigen::Matrix3Xd> turns(joints.size(), Eigen::Matrix3Xd(3, motion.num_frames()));
   std::vector<Vector3d> spreads(joints.size(), Vector3d::Zero());
   std::vector<int> columns;
   for (int k = 0; k < motion.num_frames(); ++k) {
     const Posture posture = ModelPosture(model, motion, k);
     const auto X_WS = SegmentPoses(model, posture);
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      turns[j] = ContinuousRpy(TurnsOf(Against(joints[j], X_WS), joints[j].proximal < 0), turns[j]);
+      const Vector3d before = k == 0 ? Vector3d::Zero() : Vector3d(turns[j].col(k - 1));
+      turns[j].col(k) =
+          ContinuousRpy(TurnsOf(Against(joints[j], X_WS), joints[j].proximal < 0), before);
       if (!has_deviations) continue;
       const auto D = DerivativesOf(model, joints[j], posture, X_WS, &columns);
       spreads[j] = errors.SpreadOf(D, columns, k);
     }
     for (Eigen::Index i = 0; i < count; ++i) {
       const Row& row = rows[static_cast<std::size_t>(i)];
-      angles.values(i, k) = row.sign * turns[row.joint][row.sense.turn];
       if (has_deviations) angles.deviations(i, k) = spreads[row.joint][row.sense.turn];
     }
+  }
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    if (joints[j].proximal >= 0) ChooseTurns(&turns[j]);
+  }
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Row& row = rows[static_cast<std::size_t>(i)];
+    angles.values.row(i) = row.sign * turns[row.joint].row(row.sense.turn);
   }
   return angles;
 }

@@ -245,7 +245,7 @@ std::vector<Option> RobotOptions(RobotRequest* robot) {
           task::kRetarget | task::kLive, &robot->hold, {.absent = kInPython}),
       Row({"weights", "robotWeights", ""}, {OptionKind::kText, "GROUP=W,..."},
           "how much the robot's feet, hands, trunk and limbs count against each other, 0.01 to 100 "
-          "each: feet=2,hands=0.5",
+          "each: feet=2,hands=0.5, or a file with one of these a line",
           "1", task::kRetarget | task::kLive, &robot->weights, {.absent = kInPython}),
       Row({"objects", "robotObjects", ""}, {OptionKind::kFile, "FILE[:NAMES]"},
           "MMM file with the motions of rigid objects that were tracked beside the person, or some "

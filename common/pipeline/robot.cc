@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
+#include "common/io/bytes/file_content.h"
 #include "common/io/robot/robot_file.h"
 #include "common/io/robot/robot_meshes.h"
 #include "common/model/forward_kinematics.h"
@@ -116,13 +119,21 @@ void WarnOfBareRoot(const Robot& robot, Warnings* warnings) {
                              link->name, model.segments()[body].name));
 }
 
+/// Of the option's text, or of the file that it names.
+AimWeights ReadWeights(const std::string& text) {
+  constexpr std::size_t kMostBytes = 1 << 16;
+  std::error_code failure;
+  if (!std::filesystem::is_regular_file(text, failure)) return ParseAimWeights(text);
+  return ParseAimWeightLines(ReadFileContent(text, kMostBytes), text);
+}
+
 }  // namespace
 
 LoadedRobot ReadRobot(const RobotRequest& request, Warnings* warnings) {
   Robot robot = ReadStandingRobot(request.file, warnings);
   const SoleChoice sole = SoleChoiceOf(request);
   const BodyMapChoice map = MapChoiceOf(request);
-  const AimWeights weights = ParseAimWeights(request.weights);
+  const AimWeights weights = ReadWeights(request.weights);
   Warnings of_meshes;
   ReadFeet(FindRobotMap(robot, map), sole, &robot, &of_meshes);
   RobotBody body = FindBody(robot, map, sole, of_meshes);

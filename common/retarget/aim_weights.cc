@@ -24,27 +24,29 @@ constexpr std::array<std::pair<const char*, double AimWeights::*>, 4> kGroups = 
      {"trunk", &AimWeights::trunk},
      {"limbs", &AimWeights::limbs}}};
 
-void TakeWeight(const std::string& text, std::vector<std::string>* named, AimWeights* weights) {
+/// where: the option, or the file and line.
+void TakeWeight(const std::string& where, const std::string& text, std::vector<std::string>* named,
+                AimWeights* weights) {
   const std::size_t equals = text.find('=');
   const std::string name(Trim(text.substr(0, equals)));
   double* value = nullptr;
   for (const auto& [group, member] : kGroups) {
     if (name == group) value = &(weights->*member);
   }
-  const auto number =
-      equals == std::string::npos ? std::nullopt : ParseDouble(text.substr(equals + 1));
-  if (value == nullptr || !number || !(*number >= kLeastWeight && *number <= kMostWeight)) {
+  const double number =
+      equals == std::string::npos ? 0 : ParseDouble(text.substr(equals + 1)).value_or(0);
+  if (value == nullptr || !(number >= kLeastWeight && number <= kMostWeight)) {
     throw Error(
         fmt::format("{}: \"{}\" is no weight of feet, hands, trunk or limbs from {:g} to "
-                    "{:g}; for instance feet=2,hands=0.5",
-                    OptionText("weights"), text, kLeastWeight, kMostWeight));
+                    "{:g}, as feet=2 is",
+                    where, text, kLeastWeight, kMostWeight));
   }
   for (const std::string& other : *named) {
     if (other != name) continue;
-    throw Error(fmt::format("{}: {} has two weights; give one", OptionText("weights"), name));
+    throw Error(fmt::format("{}: {} has two weights; give one", where, name));
   }
   named->push_back(name);
-  *value = *number;
+  *value = number;
 }
 
 }  // namespace
@@ -53,7 +55,21 @@ AimWeights ParseAimWeights(const std::string& text) {
   AimWeights weights;
   std::vector<std::string> named;
   if (text.empty()) return weights;
-  for (const std::string& part : Split(text, ',')) TakeWeight(part, &named, &weights);
+  for (const std::string& part : Split(text, ',')) {
+    TakeWeight(OptionText("weights"), part, &named, &weights);
+  }
+  return weights;
+}
+
+AimWeights ParseAimWeightLines(const std::string& content, const std::string& file) {
+  AimWeights weights;
+  std::vector<std::string> named;
+  int number = 0;
+  for (const std::string& line : Split(content, '\n')) {
+    ++number;
+    const std::string text(Trim(line.substr(0, line.find('#'))));
+    if (!text.empty()) TakeWeight(fmt::format("{}:{}", file, number), text, &named, &weights);
+  }
   return weights;
 }
 

@@ -15,6 +15,9 @@ struct AimWeights {
 /// "feet=2,hands=0.5"; what is not named stays 1. @throws Error where that is no weight.
 AimWeights ParseAimWeights(const std::string& text);
 
+/// Of a file with one of them a line, behind # what is not read. @throws Error with file and line.
+AimWeights ParseAimWeightLines(const std::string& content, const std::string& file);
+
 /// The deviation of an aim so weighed.
 double Weighed(double deviation, double weight);
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <string_view>
 
+#include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
 #include "common/model/marker_kinematics.h"
 #include "common/support/text.h"
@@ -134,7 +135,35 @@ double SecondsBeyond(const Gap& gap, const Gap& other, double rate) {
   return gap.seconds - std::max(0, common) / rate;
 }
 
-// Of the model: those that no assigned marker moves, and UntoldJoints.
+/// Sides whose foot shows too little of itself to tell how it is bent: of a heel and a malleolus
+/// 70 mm apart each place is off by 10.
+std::vector<std::string> ShortFeet(const TrackingSetup& setup) {
+  constexpr double kLeastLength = 0.2;  // share of the shank's
+  const KinematicModel& model = *setup.model;
+  const auto X_WS = SegmentPoses(model, ZeroPosture(model));
+  std::vector<std::string> sides;
+  for (const char* side : {"L", "R"}) {
+    const int foot = model.FindSegment(std::string(side).append("Ay_joint"));
+    const int ankle = model.FindSegment(std::string(side).append("Asegment_joint"));
+    if (foot < 0 || ankle < 0) continue;
+    std::vector<Eigen::Vector3d> places;
+    for (const MarkerAssignment& one : setup.assignments()) {
+      const ModelMarker& marker = model.markers()[one.marker];
+      if (!model.IsBelow(marker.segment, foot)) continue;
+      places.emplace_back(X_WS[static_cast<std::size_t>(marker.segment)] * marker.p_SM);
+    }
+    double apart = 0;
+    for (const Eigen::Vector3d& a : places) {
+      for (const Eigen::Vector3d& b : places) apart = std::max(apart, (a - b).norm());
+    }
+    const double shank =
+        model.segments()[static_cast<std::size_t>(ankle)].X_PF.translation().norm();
+    if (!places.empty() && apart < kLeastLength * shank) sides.emplace_back(side);
+  }
+  return sides;
+}
+
+// Of the model: those that no assigned marker moves, UntoldJoints, and ankles of ShortFeet.
 std::vector<int> UnshownJoints(const TrackingSetup& setup) {
   const MarkerKinematics kinematics(*setup.model, setup.joints, MarkerIndices(setup.assignments()));
   std::vector<int> unshown;
@@ -146,6 +175,12 @@ std::vector<int> UnshownJoints(const TrackingSetup& setup) {
       is_shown = is_shown || kinematics.Moves(static_cast<int>(found - tracked.begin()), m);
     }
     if (!is_shown) unshown.push_back(joint);
+  }
+  for (const std::string& side : ShortFeet(setup)) {
+    for (const char* ankle : {"Ax_joint", "Ay_joint", "Az_joint"}) {
+      const int joint = setup.model->FindJoint(side + ankle);
+      if (joint >= 0) unshown.push_back(joint);
+    }
   }
   return unshown;
 }
@@ -236,6 +271,9 @@ std::string DescribeUnshown(const TrackingSetup& setup) {
     if (limb.labels.empty() || missing <= 0) continue;
     unshown.push_back(
         fmt::format("{} of {} joints of the {}", missing, limb.num_joints, limb.name));
+  }
+  for (const std::string& side : ShortFeet(setup)) {
+    unshown.emplace_back(side == "L" ? "how the left foot is bent" : "how the right foot is bent");
   }
   return unshown.empty() ? "" : JoinNames(unshown, " and ");
 }

@@ -276,6 +276,7 @@ void Time(const std::string& text, int seed) {
 #ifdef MMM_CONVERTER_WITH_SIMBODY
     if (name != std::string("held")) continue;
     std::vector<Eigen::Matrix3Xd> frames;
+    frames.reserve(static_cast<std::size_t>(seen.num_frames()));
     for (int k = 0; k < seen.num_frames(); ++k) frames.emplace_back(seen.frame(k));
     const AssembledFrames assembled = FollowWithAssembler(*model, frames);
     fmt::print("{:24} {:.3f} ms median, {:.2f} mm rms\n", "Simbody's Assembler",

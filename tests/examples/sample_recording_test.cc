@@ -23,7 +23,7 @@ namespace {
 using testing::SourcePath;
 
 TEST(SampleRecordingTest, IsWhatItsGeneratorMakes) {
-  const std::string folder = testing::TestFolder();
+  const std::string& folder = testing::TestFolder();
   const std::string command = std::string("\"") + MAKE_SAMPLE_RECORDING + "\" \"" +
                               SourcePath("xml_config/models/mmm.xml") + "\" \"" + folder + "\"";
   ASSERT_EQ(std::system(command.c_str()), 0);
@@ -36,7 +36,7 @@ TEST(SampleRecordingTest, IsWhatItsGeneratorMakes) {
 }
 
 TEST(SampleRecordingTest, GaitIsWhatItsGeneratorMakes) {
-  const std::string folder = testing::TestFolder();
+  const std::string& folder = testing::TestFolder();
   const std::string command = std::string("\"") + MAKE_GAIT_RECORDING + "\" \"" +
                               SourcePath("xml_config/models/mmm.xml") + "\" \"" + folder + "\"";
   ASSERT_EQ(std::system(command.c_str()), 0);

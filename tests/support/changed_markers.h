@@ -23,6 +23,7 @@ inline int IndexOf(const MarkerSequence& sequence, const std::string& label) {
 /// Hides markers as HidingModel says.
 inline MarkerSequence Hide(const Hiding& hiding, MarkerSequence sequence, std::uint64_t seed) {
   std::vector<LabelIx> labels;
+  labels.reserve(static_cast<std::size_t>(sequence.num_labels()));
   for (int i = 0; i < sequence.num_labels(); ++i) labels.emplace_back(i);
   const HiddenMarkers hidden =
       DrawHidden(hiding, sequence.num_labels(), sequence.num_frames(), seed);

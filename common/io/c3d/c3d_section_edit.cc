@@ -128,8 +128,9 @@ void Distribute(const Texts& texts, const std::string& name, int group,
   }
 }
 
-std::string NumberRecord(const std::string& name, int group, int type, std::vector<int> sizes,
-                         const std::string& data, C3dProcessor processor) {
+std::string NumberRecord(const std::string& name, int group, int type,
+                         const std::vector<int>& sizes, const std::string& data,
+                         C3dProcessor processor) {
   std::string content{static_cast<char>(type), static_cast<char>(sizes.size())};
   for (const int size : sizes) content += static_cast<char>(size);
   content += data + '\0';

@@ -290,7 +290,7 @@ UpAxisDecision WeighUsual(const MarkerSequence& markers, double metres,
             fmt::format("{}, but the ground is along {}; {} is taken", said, name, name)};
   }
   return {body, true, fmt::format("{}, which is unusual; {} is taken as up", said, Name(body)),
-          !IsOnGround(markers, metres, body)};
+          true};
 }
 
 }  // namespace

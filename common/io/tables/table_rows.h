@@ -35,7 +35,7 @@ TextPieces TableText(std::string header, TableRows rows, Row row) {
   return [header = std::move(header), rows, row = std::move(row)](const TextSink& sink) {
     PieceWriter pieces(sink);
     *pieces.text() += header;
-    Row append = row;
+    Row append = row;  // NOLINT(performance-unnecessary-copy-initialization): it may keep things
     for (int k = rows.begin; k < rows.end; ++k) {
       append(k, pieces.text());
       *pieces.text() += '\n';

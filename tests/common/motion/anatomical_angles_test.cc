@@ -17,6 +17,7 @@
 #include "common/model/forward_kinematics.h"
 #include "common/model/kit_joints.h"
 #include "common/support/error.h"
+#include "common/support/units.h"
 #include "tests/support/shared_data.h"
 #include "tests/support/test_models.h"
 
@@ -186,6 +187,29 @@ TEST_F(AnatomicalAnglesTest, TurnsWithoutJumps) {
   const AnatomicalAngles angles = ComputeAnatomicalAngles(model_, Motion(postures));
   EXPECT_NEAR(angles.values(RowOf(angles, "pelvis", "", "rotation"), kFrames - 1),
               4 * std::numbers::pi, kExact);
+}
+
+// Raised to the side by 150 degrees and lowered again, with the elbow a little in front.
+TEST_F(AnatomicalAnglesTest, AnArmThatHangsAgainHangsAtZero) {
+  const std::string side = "left";
+  std::vector<Posture> postures;
+  constexpr int kFrames = 101;
+  for (int k = 0; k < kFrames; ++k) {
+    const double raised = std::sin(std::numbers::pi * k / (kFrames - 1)) * 150 / kDegrees;
+    Posture posture = ZeroPosture(model_);
+    posture.joint_angles[model_.FindJoint("LSy_joint")] = raised;
+    posture.joint_angles[model_.FindJoint("LSx_joint")] = 0.05 * (k < kFrames / 2 ? 1 : -1);
+    postures.push_back(posture);
+  }
+  const AnatomicalAngles angles = ComputeAnatomicalAngles(model_, Motion(postures));
+  const auto last = [&](const char* motion) {
+    return angles.values(RowOf(angles, "shoulder", side, motion), kFrames - 1);
+  };
+  EXPECT_NEAR(last("flexion"), 0, 0.1);
+  EXPECT_NEAR(last("adduction"), 0, 0.1);
+  const Eigen::RowVectorXd adduction =
+      angles.values.row(RowOf(angles, "shoulder", side, "adduction"));
+  EXPECT_NEAR(adduction.cwiseAbs().maxCoeff(), 150 / kDegrees, 0.1);
 }
 
 // What the lower spine bends too much the upper one bends too little: the trunk is surer than both.

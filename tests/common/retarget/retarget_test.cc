@@ -213,6 +213,19 @@ TEST(AimWeightsTest, AreOfGroupsWithinBounds) {
   }
 }
 
+TEST(AimWeightsTest, AreLinesOfAFile) {
+  const AimWeights weights = ParseAimWeightLines("# mine\nfeet = 2  # firm\r\n\nlimbs=.5", "w.txt");
+  EXPECT_EQ(weights.feet, 2);
+  EXPECT_EQ(weights.limbs, 0.5);
+  EXPECT_EQ(weights.hands, 1);
+  try {
+    ParseAimWeightLines("feet=2\nfeet=3\n", "w.txt");
+    ADD_FAILURE() << "two weights of feet";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "w.txt:2: feet has two weights; give one");
+  }
+}
+
 TEST(AimWeightsTest, WhatWeighsMoreIsNearer) {
   const KinematicModel person = Person(1.75);
   const Robot robot = MakeBiped({});

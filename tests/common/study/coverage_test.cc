@@ -59,7 +59,7 @@ std::vector<std::string> ShownBy(const std::vector<std::string>& markers) {
 
 TEST(CoverageTest, AnglesThatNoMarkerTellsAreNotShown) {
   const std::vector<std::string> leg =
-      ShownBy({"C7", "CLAV", "STRN", "T10", "LASI", "RASI", "LKNE", "LANK", "LHEE"});
+      ShownBy({"C7", "CLAV", "STRN", "T10", "LASI", "RASI", "LKNE", "LANK", "LTOE"});
   EXPECT_THAT(
       leg, AllOf(Contains("pelvis  tilt"), Contains("trunk  flexion"), Contains("hip left flexion"),
                  Contains("knee left flexion"), Contains("ankle left dorsiflexion")));
@@ -69,6 +69,14 @@ TEST(CoverageTest, AnglesThatNoMarkerTellsAreNotShown) {
   const std::vector<std::string> foot =
       ShownBy({"LASI", "RASI", "STRN", "LKNE", "LANK", "LHEE", "LTOE", "LMT1", "LMT5"});
   EXPECT_THAT(foot, Contains("ankle left inversion"));
+}
+
+// A heel and a malleolus are 70 mm apart, each 10 mm off.
+TEST(CoverageTest, AFootWithoutItsFrontDoesNotTellHowItIsBent) {
+  EXPECT_THAT(ShownBy({"LASI", "RASI", "STRN", "LKNE", "LANK", "LHEE"}),
+              AllOf(Contains("knee left flexion"), Not(Contains(StartsWith("ankle")))));
+  EXPECT_THAT(DescribeUnshown(SetupWith({"LASI", "RASI", "STRN", "LKNE", "LANK", "LHEE"})),
+              HasSubstr("how the left foot is bent"));
 }
 
 /// Of a lower body, hidden from frame 100 on for so many.

@@ -152,8 +152,8 @@ TEST(OsimRefuses, FunctionsThatAreNone) {
 TEST(OsimRefuses, FunctionsBeyondWhatABodyCanDo) {
   std::string scaled = "<LinearFunction><coefficients>1 0</coefficients></LinearFunction>";
   for (int i = 0; i < 4; ++i) {
-    scaled = "<MultiplierFunction><scale>1e9</scale><function>" + scaled +
-             "</function></MultiplierFunction>";
+    scaled.insert(0, "<MultiplierFunction><scale>1e9</scale><function>");
+    scaled += "</function></MultiplierFunction>";
   }
   EXPECT_THAT(OsimMessage(WithFunction("<function>" + scaled + "</function>")),
               HasSubstr("beyond what a body can do"));
