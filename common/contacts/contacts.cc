@@ -80,6 +80,7 @@ std::vector<Standing> BySpeed(const FootMotion& motion, const std::vector<SlowFo
 ContactLag LagOf(std::vector<double> later, ContactLag lag) {
   if (later.empty()) return lag;
   lag.seconds = Median(later);
+  lag.share = 0;
   if (later.size() < kEnoughEvents) return lag;
   double squares = 0;
   for (const double one : later) squares += (one - lag.seconds) * (one - lag.seconds);
@@ -191,8 +192,8 @@ Contacts FindContacts(const FootMotion& motion, const RecordedForces& forces) {
   for (const Side side : kSides) {
     const auto i = static_cast<std::size_t>(side);
     for (Standing& one : by_speed[i]) {
-      if (one.has_begin) one.begin += lags.begin.seconds;
-      if (one.has_end) one.end += lags.end.seconds;
+      if (one.has_begin) one.begin += lags.begin.SecondsOf(one.slowing);
+      if (one.has_end) one.end += lags.end.SecondsOf(one.speeding);
       one.plates = SharedPlates(one, motion.feet[i], motion, found.loads, forces);
     }
     for (FootContact& one : Combine(side, on_plates[i], by_speed[i], lags)) {

@@ -93,9 +93,10 @@ FootContacts FindSlowContacts(const FootMotion& motion) {
     for (const SlowFoot& one : slow[static_cast<std::size_t>(side)]) {
       FootContact& contact = found.contacts.emplace_back();
       contact.side = side;
-      if (one.begin > 0) contact.begin = motion.time(one.begin) + kBeginLag.seconds;
+      if (one.begin > 0)
+        contact.begin = motion.time(one.begin) + kBeginLag.SecondsOf(one.slowing / motion.rate);
       if (one.end < motion.num_frames() - 1) {
-        contact.end = motion.time(one.end) + kEndLag.seconds;
+        contact.end = motion.time(one.end) + kEndLag.SecondsOf(one.speeding / motion.rate);
       }
       contact.begin_deviation = kBeginLag.DeviationOf(one.slowing / motion.rate);
       contact.end_deviation = kEndLag.DeviationOf(one.speeding / motion.rate);

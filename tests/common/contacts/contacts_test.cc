@@ -197,7 +197,7 @@ TEST_F(TreadmillTest, EachBeltBearsItsFoot) {
 TEST(ContactLag, IsNoSurerThanAFootThatSlowsDownSlowlyUnlessItIsMeasured) {
   EXPECT_EQ(kBeginLag.DeviationOf(0.01), kBeginLag.deviation);
   EXPECT_EQ(kBeginLag.DeviationOf(0.1), 0.1);
-  EXPECT_EQ((ContactLag{0.01, 0.005, true}.DeviationOf(0.1)), 0.005);
+  EXPECT_EQ((ContactLag{0.01, 0.005, 0, true}.DeviationOf(0.1)), 0.005);
 }
 
 TEST_F(WalkTest, WithoutPlatesFeetStandWhereTheyAreSlow) {
