@@ -24,48 +24,14 @@ double SlownessOf(const FootMotion& motion) {
   return std::clamp(kSlowShare * fastest, kSlowestStep, kComesBelow) / kComesBelow;
 }
 
-/// Whether a foot is held above the ground beside one that stands there, which the body is over.
-bool IsHeldUp(const FootMotion& motion, const FootStates& states, std::size_t i, Eigen::Index k) {
-  constexpr double kRaised = 0.03;  // [m] of both ends: soles of feet that stand are off by less
-  constexpr double kNearer = 0.03;  // [m]
-  const std::size_t other = 1 - i;
-  if (motion.body.cols() == 0) return false;
-  const auto lowest = [&](std::size_t foot) {
-    return std::min(states.heels[foot].height[k], states.toes[foot].height[k]);
-  };
-  const double slowest = std::min(states.heels[other].speed[k], states.toes[other].speed[k]);
-  if (!(lowest(i) > kRaised && lowest(other) < kRaised && slowest < kRestSpeed)) return false;
-  const auto from_body = [&](std::size_t foot) {
-    const FootPath& path = motion.feet[foot];
-    return (motion.body.col(k) - (path.heel.col(k) + path.toe.col(k)) / 2).head<2>().norm();
-  };
-  return from_body(i) > from_body(other) + kNearer;
-}
-
 /// The slower end of a foot that is low; else faster than what leaves.
-Eigen::VectorXd LowSpeed(const FootMotion& motion, const FootStates& states, std::size_t i) {
-  const FootPath& foot = motion.feet[i];
-  const PointState& heel = states.heels[i];
-  const PointState& toe = states.toes[i];
+Eigen::VectorXd LowSpeed(const FootPath& foot, const PointState& heel, const PointState& toe) {
   Eigen::VectorXd speed = Eigen::VectorXd::Constant(heel.speed.size(), 2 * kLeavesAbove);
   for (const PointState* point : {&heel, &toe}) {
     speed = (point->height.array() <= kLowHeight).select(speed.cwiseMin(point->speed), speed);
   }
   for (Eigen::Index k = 0; k < speed.size(); ++k) {
     if (foot.IsUpsideDown(k)) speed[k] = 2 * kLeavesAbove;
-  }
-  // A foot that lands is slow and not yet down for less.
-  constexpr double kHeldTime = 0.15;  // [s]
-  Eigen::Index begin = 0;
-  for (Eigen::Index k = 0; k <= speed.size(); ++k) {
-    const bool is_held =
-        k < speed.size() && speed[k] <= kLeavesAbove && IsHeldUp(motion, states, i, k);
-    if (is_held) continue;
-    const Eigen::Index frames = k - begin;
-    if (static_cast<double>(frames) >= kHeldTime * motion.rate) {
-      speed.segment(begin, frames).setConstant(2 * kLeavesAbove);
-    }
-    begin = k + 1;
   }
   return speed;
 }
@@ -114,7 +80,8 @@ SlowFeet FindSlowFeet(const FootMotion& motion) {
   const FootStates states = FindFootStates(motion);
   const double slowness = SlownessOf(motion);
   for (std::size_t i = 0; i < slow.size(); ++i) {
-    slow[i] = SlowTimes(LowSpeed(motion, states, i), motion.rate, slowness);
+    slow[i] =
+        SlowTimes(LowSpeed(motion.feet[i], states.heels[i], states.toes[i]), motion.rate, slowness);
   }
   return slow;
 }

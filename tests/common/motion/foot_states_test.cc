@@ -102,32 +102,6 @@ TEST(FootStates, AFootStandsOnStepsAndTheLowestIsTheFloor) {
   }
 }
 
-// A foot is slow at the top of a lift by 50 mm; it stands there only below the body.
-TEST(SlowFeet, AFootThatIsHeldUpDoesNotStand) {
-  const auto contacts_with = [](double body) {
-    constexpr int kFrames = 400;
-    FootMotion motion;
-    motion.rate = kFrameRate;
-    motion.body = Eigen::Vector3d(0.1, body, 1).replicate(1, kFrames);
-    for (std::size_t i = 0; i < 2; ++i) {
-      FootPath& foot = motion.feet[i];
-      foot.heel = Eigen::Vector3d(0, i == 0 ? 0.1 : -0.1, 0).replicate(1, kFrames);
-      foot.toe = foot.heel;
-      foot.toe.row(0).array() += 0.2;
-    }
-    for (int k = 100; k < 200; ++k) {
-      const double raised = 0.05 * std::pow(std::sin(std::numbers::pi * (k - 100) / 100), 2);
-      motion.feet[1].heel(2, k) = motion.feet[1].toe(2, k) = raised;
-    }
-    FindSpeeds(&motion);
-    const auto contacts = FindSlowContacts(motion).contacts;
-    return std::count_if(contacts.begin(), contacts.end(),
-                         [](const FootContact& one) { return one.side == Side::kRight; });
-  };
-  EXPECT_EQ(contacts_with(0.1), 2);
-  EXPECT_EQ(contacts_with(-0.1), 1);
-}
-
 TEST(FootStates, WhoeverStandsOnOneLegHoldsTheOtherFootUp) {
   const KinematicModel person =
       ScaleWinter(ReadMmmModel(testing::SourcePath("xml_config/models/mmm.xml")), {1.75, 70, {}});
