@@ -33,7 +33,7 @@ Eigen::Vector3d MiddleOf(const Eigen::Matrix3Xd& points) {
 /// link's centre of mass is nearer to the mesh as it is, it is taken so.
 Eigen::Matrix3Xd PlacedPoints(const MeshPoints& read, const RobotMesh& mesh,
                               const Segment& segment) {
-  const Eigen::Matrix3Xd as_it_is = mesh.A_SM * read.points;
+  Eigen::Matrix3Xd as_it_is = mesh.A_SM * read.points;
   if (!read.is_y_up) return as_it_is;
   const Eigen::AngleAxisd upright(std::numbers::pi / 2, Eigen::Vector3d::UnitX());
   Eigen::Matrix3Xd turned = mesh.A_SM * (upright.toRotationMatrix() * read.points);
