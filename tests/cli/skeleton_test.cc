@@ -27,7 +27,7 @@ using testing::WriteText;
 
 /// The beginning of the sample, tracked and exported.
 std::string Exported() {
-  const std::string file = TestFolder() + "/sample.bvh";
+  std::string file = TestFolder() + "/sample.bvh";
   const auto run = RunProgram({"convert", testing::Handstand(), "--height", "1.8", "--frames",
                                ":60", "-o", TestFolder() + "/sample.xml", "--export-bvh", file,
                                "--export-amass", TestFolder() + "/sample.npz"});

@@ -349,10 +349,10 @@ HumanMotion Walker() {
   for (std::size_t i = 0; i < 2; ++i) {
     motion.heels[i].resize(3, 300);
     for (int k = 0; k < 300; ++k) {
-      const int shifted = i == 0 ? k : k + 50, within = shifted % 100;
+      const int shifted = i == 0 ? k : k + 50, within = shifted % 100, steps = shifted / 100;
       const double part = std::max(0, within - 60) / 40.0;
       const double lifted = 0.1 * std::sin(std::numbers::pi * part);
-      motion.heels[i].col(k) << kSpeed * (shifted / 100 + part), 0.2 * i, 0.05 + lifted;
+      motion.heels[i].col(k) << kSpeed * (steps + part), 0.2 * i, 0.05 + lifted;
       motion.bodies[k].mid_hip = {kSpeed * k / 100, 0.1, 0.9};
     }
     motion.toes[i] = motion.heels[i];
