@@ -270,7 +270,9 @@ CalibrationResult CalibrateBody(BodyKinematics* kinematics,
   result.stands = !CheckMovement(model, joints, frames, options.may_stand, warnings);
   body.offsets = first.offsets;
   const VectorXd noise_scales = NoiseScales(recordings, markers);
-  if (options.places_by_noise) FitPosturesByPlaces(model, joints, markers, noise_scales, &frames);
+  if (options.places_by_noise) {
+    FitPosturesByPlaces(model, joints, markers, noise_scales, &frames, options.between_steps);
+  }
   std::vector<CalibrationFrame> chosen = ChooseFrames(frames, first.distance, options.frames);
   // The median offsets of a posture that is not known are no better start than known places.
   if (options.places_by_noise) {

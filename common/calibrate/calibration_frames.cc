@@ -150,10 +150,11 @@ VectorXd FitPostures(const KinematicModel& model, const std::vector<int>& joints
 
 void FitPosturesByPlaces(const KinematicModel& model, const std::vector<int>& joints,
                          const std::vector<MarkerIx>& markers, const VectorXd& noise_scale,
-                         std::vector<CalibrationFrame>* frames) {
+                         std::vector<CalibrationFrame>* frames,
+                         const std::function<void()>& between_steps) {
   std::vector<CalibrationFrame> anew = *frames;
   for (CalibrationFrame& frame : anew) frame.posture = {};
-  FitPostures(MarkerKinematics(model, joints, markers), noise_scale, &anew, {});
+  FitPostures(MarkerKinematics(model, joints, markers), noise_scale, &anew, between_steps);
   for (std::size_t k = 0; k < anew.size(); ++k) (*frames)[k].by_places = anew[k].posture;
 }
 

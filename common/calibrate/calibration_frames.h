@@ -35,10 +35,11 @@ Eigen::VectorXd FitPostures(const KinematicModel& model, const std::vector<int>&
                             std::vector<CalibrationFrame>* frames,
                             const std::function<void()>& between_steps = {});
 
-/// Finds the frames' by_places. noise_scale: how well each place is known.
+/// Finds the frames' by_places. noise_scale: how well each place is known; the rest as FitPostures.
 void FitPosturesByPlaces(const KinematicModel& model, const std::vector<int>& joints,
                          const std::vector<MarkerIx>& markers, const Eigen::VectorXd& noise_scale,
-                         std::vector<CalibrationFrame>* frames);
+                         std::vector<CalibrationFrame>* frames,
+                         const std::function<void()>& between_steps);
 
 /// How far each marker is from where the model's segment has it, the median of the frames by axis,
 /// 3 x markers [m], segment axes; 0 where it was not seen.

@@ -363,9 +363,9 @@ AnatomicalAngles ComputeAnatomicalAngles(const KinematicModel& model,
       const auto D = DerivativesOf(model, joints[j], posture, X_WS, &columns);
       spreads[j] = errors.SpreadOf(D, columns, k);
     }
-    for (Eigen::Index i = 0; i < count; ++i) {
+    for (Eigen::Index i = 0; has_deviations && i < count; ++i) {
       const Row& row = rows[static_cast<std::size_t>(i)];
-      if (has_deviations) angles.deviations(i, k) = spreads[row.joint][row.sense.turn];
+      angles.deviations(i, k) = spreads[row.joint][row.sense.turn];
     }
   }
   for (std::size_t j = 0; j < joints.size(); ++j) {
